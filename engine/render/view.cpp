@@ -3,28 +3,33 @@
 #include "engine/render/view.h"
 
 #include <cmath>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "engine/core/assert.h"
+#include "engine/core/text/plain_text.h"
 #include "engine/render/framing.h"
+#include "engine/scene/posing/camera_poses.h"
+#include "engine/scene/resources.h"
 
 namespace gloam {
 namespace {
-
-/// The rotation and translation of a matrix that may also scale.
-dmat4 rigid(const dmat4& m) {
-  dvec3 z = glm::normalize(dvec3(m[2]));
-  const dvec3 x = glm::normalize(glm::cross(dvec3(m[1]), z));
-  const dvec3 y = glm::cross(z, x);
-  return dmat4(dvec4(x, 0.0), dvec4(y, 0.0), dvec4(z, 0.0), dvec4(dvec3(m[3]), 1.0));
-}
 
 /// Mirrors directions at a plane through the origin.
 dmat4 reflection(const dvec3& normal) { return dmat4(glm::dmat3(1.0) - 2.0 * glm::outerProduct(normal, normal)); }
 
 dvec3 reflected(const dvec3& position, const MirrorPlane& mirror) {
   return position - 2.0 * (glm::dot(mirror.normal, position) - mirror.offset) * mirror.normal;
+}
+
+/// The pose of a camera with this world matrix, or its last one if the matrix has none.
+std::optional<dmat4> camera_pose(const World& world, Entity camera, const dmat4& matrix) {
+  if (std::optional<dmat4> pose = rigid_pose(matrix)) return pose;
+  const auto* poses = world.try_resource<CameraPoses>();
+  const dmat4* last = poses != nullptr ? poses->find(camera) : nullptr;
+  return last != nullptr ? std::optional(*last) : std::nullopt;
 }
 
 bool is_positive(float value) { return value > 0.0f && std::isfinite(value); }
@@ -103,8 +108,21 @@ void follow_camera(const World& world, ViewSettings& settings) {
   const WorldTransform* transform = world.try_get<WorldTransform>(settings.camera_entity);
   if (camera == nullptr || transform == nullptr) return;
   settings.camera = *camera;
-  settings.world_from_camera = rigid(transform->matrix);
+  if (const std::optional<dmat4> pose = camera_pose(world, settings.camera_entity, transform->matrix))
+    settings.world_from_camera = *pose;
   if (!from_point) settings.lens.reset();
+}
+
+Status check_camera_pose(const World& world, const ViewSettings& settings) {
+  if (!settings.follow_camera) return {};
+  const WorldTransform* transform = world.try_get<WorldTransform>(settings.camera_entity);
+  if (transform == nullptr || !world.has<Camera>(settings.camera_entity)) return {};
+  if (camera_pose(world, settings.camera_entity, transform->matrix)) return {};
+  const auto* names = world.try_resource<SceneNames>();
+  const std::string name(names != nullptr ? names->name_of(settings.camera_entity) : std::string_view());
+  return Error{ErrorKind::input, "camera " + (name.empty() ? text_of(settings.camera_entity) : in_quotes(name)) +
+                                     " has no direction: its node or a parent has a scale of 0 or a singular matrix, "
+                                     "and it had no other pose before"};
 }
 
 RenderView make_view(const ViewSettings& settings, std::uint64_t frame, std::uint64_t cut_frame) {

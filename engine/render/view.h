@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/result.h"
 #include "engine/ecs/entity.h"
 #include "engine/math/types.h"
 #include "engine/math/view_projection.h"
@@ -150,8 +151,12 @@ void check_settings(const ViewSettings& settings);
 [[nodiscard]] std::string camera_fault(const World& world, Entity camera);
 
 /// If settings.follow_camera is set and settings.camera_entity is alive, sets pose and lens from its current state, and
-/// settings.lens from the world's LensPoint.
+/// settings.lens from the world's LensPoint. A camera whose world matrix is singular has its last rigid pose
+/// (CameraPoses); without one the pose of the settings stays.
 void follow_camera(const World& world, ViewSettings& settings);
+
+/// Input error that names the camera, if the view follows a camera that never had a rigid pose (rigid_pose).
+[[nodiscard]] Status check_camera_pose(const World& world, const ViewSettings& settings);
 
 /// cut_frame: see RenderView.
 [[nodiscard]] RenderView make_view(const ViewSettings& settings, std::uint64_t frame, std::uint64_t cut_frame = 0);

@@ -3,6 +3,7 @@
 #include "engine/scene/system_state.h"
 
 #include "engine/scene/posing/animation.h"
+#include "engine/scene/posing/camera_poses.h"
 
 namespace gloam {
 
@@ -10,6 +11,7 @@ void prepare_scene_systems(World& world) {
   world.ensure_resource<SceneNodes>();
   world.ensure_resource<AnimationBindings>();
   world.ensure_resource<TransformTree>();
+  world.ensure_resource<CameraPoses>();
 }
 
 }  // namespace gloam

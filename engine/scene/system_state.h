@@ -22,7 +22,7 @@ struct TransformTree {
   TransformLevels levels;
 };
 
-/// Adds the resources of the scene systems (SceneNodes, AnimationBindings, TransformTree) to the world.
+/// Adds the resources of the scene systems (SceneNodes, AnimationBindings, TransformTree, CameraPoses) to the world.
 void prepare_scene_systems(World& world);
 
 }  // namespace gloam

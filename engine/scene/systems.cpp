@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -78,6 +79,7 @@ std::string absent_mesh(Entity entity, std::uint32_t mesh, std::size_t meshes) {
 void add_scene_systems(Schedule& schedule) {
   schedule.add_system("animation", "engine", Stage::world, &animation_system);
   schedule.add_system("transforms", "engine", Stage::world, &transform_system);
+  schedule.add_system("camera_poses", "engine", Stage::world, &camera_pose_system);
   schedule.add_system("joint_matrices", "engine", Stage::world, &joint_system);
   schedule.add_system("morph_weights", "engine", Stage::world, &morph_system);
 }
@@ -107,6 +109,18 @@ void animation_system(View<const SourceNode> sources, View<LocalTransform> poses
       poses.mark_changed<LocalTransform>(binding.entity);
     }
   });
+}
+
+void camera_pose_system(View<const Camera, const WorldTransform> cameras, Resource<CameraPoses> poses) {
+  std::vector<CameraPoses::Row> rows;  // without cameras that are gone
+  cameras.each([&](Entity entity, const Camera&, const WorldTransform& world) {
+    if (const std::optional<dmat4> pose = rigid_pose(world.matrix))
+      rows.push_back({entity, *pose});
+    else if (const dmat4* last = poses->find(entity))
+      rows.push_back({entity, *last});
+  });
+  std::ranges::sort(rows, {}, [](const CameraPoses::Row& row) { return row.camera.index; });
+  poses->rows = std::move(rows);
 }
 
 void joint_system(View<const MeshInstance> instances, View<const WorldTransform> worlds,

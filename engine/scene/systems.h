@@ -10,13 +10,15 @@
 #include "engine/scene/assets.h"
 #include "engine/scene/components.h"
 #include "engine/scene/posing/animation.h"
+#include "engine/scene/posing/camera_poses.h"
 #include "engine/scene/resources.h"
 #include "engine/scene/system_state.h"
 #include "engine/schedule/schedule.h"
 
 namespace gloam {
 
-/// Adds animation, transform, joint-matrix and morph systems (module "engine", world stage), in that order.
+/// Adds animation, transform, camera-pose, joint-matrix and morph systems (module "engine", world stage), in that
+/// order.
 void add_scene_systems(Schedule& schedule);
 
 /// A sentence about a MeshInstance whose mesh is not below `meshes`, the number of meshes of SceneAssets.
@@ -32,6 +34,9 @@ void animation_system(View<const SourceNode> sources, View<LocalTransform> poses
 /// dead or has no WorldTransform is a root.
 using TransformView = View<WorldTransform, Maybe<const LocalTransform>, Maybe<const LocalMatrix>, Maybe<const Parent>>;
 void transform_system(TransformView nodes, Resource<TransformTree> tree, JobExecutor& jobs);
+
+/// Notes the rigid pose of every camera that has one in this frame.
+void camera_pose_system(View<const Camera, const WorldTransform> cameras, Resource<CameraPoses> poses);
 
 /// Computes the JointMatrices of all skinned instances. A joint that is not in the world gets the world matrix of the
 /// instance.

@@ -128,7 +128,10 @@ Status Player::obey(const WindowInput& input) {
 /// Shows the scene's camera of this number, from 1 on, and ends the flight.
 void Player::show_camera(std::uint32_t number) {
   if (number > session_.info.cameras.size()) return;
-  session_.camera = session_.info.cameras[number - 1];
+  const Entity camera = session_.info.cameras[number - 1];
+  if (const Status posed = check_camera_pose(session_.world, {.camera_entity = camera}); !posed.ok())
+    return log_.warning(posed.error().message);
+  session_.camera = camera;
   settings_ = session_.view_settings(settings_.width, settings_.height, settings_.visualizer);
   settings_.camera_cut = true;
   flight_ = {};

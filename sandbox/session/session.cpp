@@ -110,6 +110,11 @@ Status fill_session(Session& session, const Options& options, LogSink& log) {
   session.camera = *camera;
   session.set_clock(options.time_s, options.dt_s);
   pose_scene(session);
+  if (session.camera != kNoEntity) {
+    const ViewSettings followed{.camera_entity = session.camera};
+    if (const Status posed = check_camera_pose(session.world, followed); !posed.ok())
+      return Error{posed.error().kind, session.info.path + ": " + posed.error().message};
+  }
   return session.renderer->check_visualizer(session.world, options.view);
 }
 

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "engine/scene/gltf/import.h"
+#include "engine/scene/posing/camera_poses.h"
+#include "engine/scene/resources.h"
 #include "tests/support/expect_assert.h"
 #include "tests/support/render_scene.h"
 
@@ -164,6 +166,28 @@ TEST_F(CameraWorld, a_scaled_or_mirrored_camera_node_gives_a_rigid_pose) {
         << "it looks where its node looks";
     EXPECT_EQ(dvec3(settings.world_from_camera[3]), dvec3(1.0, 2.0, 3.0));
   }
+}
+
+TEST_F(CameraWorld, a_camera_of_scale_0_has_its_last_pose_or_is_an_input_error) {
+  const dmat4 singular = glm::translate(dmat4(1.0), dvec3(4.0)) * glm::scale(dmat4(1.0), dvec3(0.0));
+  ViewSettings settings;
+  settings.camera_entity = camera_at(singular);
+  world_.resource<SceneNames>().add("camera", "eye", settings.camera_entity);
+  follow_camera(world_, settings);
+  EXPECT_EQ(settings.world_from_camera, dmat4(1.0)) << "no pose to take";
+  const Status refused = check_camera_pose(world_, settings);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().kind, ErrorKind::input);
+  EXPECT_NE(refused.error().message.find("eye"), std::string::npos) << refused.error().message;
+
+  const dmat4 last = glm::translate(dmat4(1.0), dvec3(1.0, 2.0, 3.0));
+  world_.resource<CameraPoses>().rows = {{settings.camera_entity, last}};
+  EXPECT_TRUE(check_camera_pose(world_, settings).ok());
+  follow_camera(world_, settings);
+  EXPECT_EQ(settings.world_from_camera, last);
+  settings.follow_camera = false;
+  world_.resource<CameraPoses>().rows.clear();
+  EXPECT_TRUE(check_camera_pose(world_, settings).ok()) << "it does not follow";
 }
 
 TEST_F(CameraWorld, nothing_to_follow_leaves_the_settings) {

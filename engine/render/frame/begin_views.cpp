@@ -59,6 +59,7 @@ Status add_companions(Frame& frame, const ModuleSet& modules, const gpu::Device&
     GLOAM_TRY(acquire_target(device, own.request));
     check_target(device, own.request);
     follow_camera(frame.world, own.request.settings);
+    GLOAM_TRY(check_camera_pose(frame.world, own.request.settings));
     check_settings(own.request.settings);
     GLOAM_TRY(check_size(own.request.settings));
     GLOAM_TRY(add_companions_of(frame, own, modules));

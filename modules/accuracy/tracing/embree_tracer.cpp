@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <string>
@@ -87,7 +88,23 @@ void filter_nearest(const RTCFilterFunctionNArguments* args) {
   });
 }
 
-RTCRay make_ray(const vec3& origin, const vec3& direction, float from, float to) {
+/// Whether Embree takes the number as a coordinate of a ray: it asserts that coordinates are below 1.844e18.
+bool is_coordinate(float value) { return std::abs(value) < 1.8e18f; }
+
+bool is_ray(const vec3& origin, const vec3& direction, float from, float to) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (!is_coordinate(origin[axis]) || !is_coordinate(direction[axis])) return false;
+  return from <= to;  // also for NaN
+}
+
+/// A ray that is not finite, or too far away for Embree, meets nothing.
+RTCRay make_ray(vec3 origin, vec3 direction, float from, float to) {
+  if (!is_ray(origin, direction, from, to)) {
+    origin = vec3(0.0f);
+    direction = vec3(0.0f, 0.0f, 1.0f);
+    from = 1.0f;
+    to = 0.0f;  // before `from`: no ray
+  }
   return {.org_x = origin.x,
           .org_y = origin.y,
           .org_z = origin.z,
