@@ -32,6 +32,9 @@ struct Primitive {
     std::vector<vec3> normals;    ///< offsets from the rest normals; may be empty
   };
   std::vector<MorphTarget> morph_targets;
+  /// The normals are those of the triangles at rest. Morphed and skinned, the primitive is shaded with the normals of
+  /// its triangles as they are drawn.
+  bool flat_shaded = false;
   Aabb bounds;  ///< required: of the rest positions; complete_primitive() computes it
 };
 

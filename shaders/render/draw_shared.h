@@ -47,6 +47,8 @@ GLOAM_SHARED_END
 #define GLOAM_SURFACE_MASK 32u
 #define GLOAM_SURFACE_DOUBLE_SIDED 64u
 #define GLOAM_SURFACE_VERTEX_COLOR 128u
+#define GLOAM_SURFACE_FLIPPED 1024u      // of double-sided surfaces: front faces are clockwise
+#define GLOAM_SURFACE_FLAT 2048u         // shaded with the normals of the triangles, as they are drawn
 #define GLOAM_SURFACE_CLIPPED 512u       // surfaces behind ViewConstants::clip_plane are not drawn
 #define GLOAM_SURFACE_UV_TRANSFORM 256u  // some texture has a transform or uses the second uv set
 

@@ -75,17 +75,25 @@ Surface fetch_surface_unscaled(vec3 to_viewer, float normal_variance) {
   if (dot(s.face_normal, to_viewer) < 0.0) s.face_normal = -s.face_normal;
   if (!(size_of(s.face_normal) > 1e-30)) s.face_normal = to_viewer;  // degenerate derivatives
 
-  s.normal = in_normal;
+  // Which side is seen follows from the winding alone: shading normals may lean to the other side.
+  bool back =
+      (kSurface & GLOAM_SURFACE_DOUBLE_SIDED) != 0u && gl_FrontFacing == ((kSurface & GLOAM_SURFACE_FLIPPED) != 0u);
+  vec3 front_normal = in_normal, tangent = in_tangent.xyz;
+  if ((kSurface & GLOAM_SURFACE_FLAT) != 0u) {
+    front_normal = normalize(back ? -s.face_normal : s.face_normal);
+    tangent = normalize(tangent - dot(tangent, front_normal) * front_normal);
+  }
+  s.normal = front_normal;
   if ((kSurface & GLOAM_SURFACE_NORMAL_TEXTURE) != 0u) {
     vec3 t = texture(normal_texture, texture_uv(1)).xyz * 2.0 - 1.0;
     t.xy *= material.factors.z;
     // The tangent frame has unit length at vertices and is used as interpolated, not normalised, as in the baking of
     // normal maps.
-    vec3 bitangent = cross(in_normal, in_tangent.xyz) * in_tangent.w;
-    s.normal = in_tangent.xyz * t.x + bitangent * t.y + in_normal * t.z;
+    vec3 bitangent = cross(front_normal, tangent) * in_tangent.w;
+    s.normal = tangent * t.x + bitangent * t.y + front_normal * t.z;
   }
-  // Double-sided materials shade their back with the flipped normal.
-  if ((kSurface & GLOAM_SURFACE_DOUBLE_SIDED) != 0u && dot(in_normal, s.face_normal) < 0.0) s.normal = -s.normal;
+  // Double-sided materials shade their back with the reversed normal.
+  if (back) s.normal = -s.normal;
   if (!(size_of(s.normal) > 1e-30)) s.normal = s.face_normal;
 
   s.metallic = material.factors.x;

@@ -71,7 +71,7 @@ TEST(SharedStructs, the_lights_fit_into_a_uniform_buffer) {
 
 TEST(SharedStructs, packed_vertices_are_what_the_kernel_and_the_streams_read) {
   EXPECT_EQ(sizeof(PackedFrame), 8u);     // rg32_uint, uvec2
-  EXPECT_EQ(sizeof(PackedSurface), 20u);  // rgba32_float and rgba8_unorm
+  EXPECT_EQ(sizeof(PackedSurface), 24u);  // rgba32_float and rgba16_float
   EXPECT_EQ(offsetof(PackedSurface, color), 16u);
   EXPECT_EQ(sizeof(PackedInfluence), 16u);  // uvec4
   EXPECT_EQ(sizeof(vec3), 12u);

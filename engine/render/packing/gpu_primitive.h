@@ -28,6 +28,7 @@ struct GpuPrimitive {
   bool morph_has_normals = false;
   bool skinned = false;
   bool colored = false;        ///< has vertex colours
+  bool flat_shaded = false;    ///< deformed, with the normals of the triangles that are drawn
   bool closed = false;         ///< is_closed_surface()
   bool smooth_shaded = false;  ///< is_smooth_shaded(), in the rest pose
   bool simplification_tried = false;

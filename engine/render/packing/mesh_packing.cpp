@@ -58,9 +58,9 @@ std::vector<PackedSurface> pack_surfaces(const Primitive& primitive) {
     if (!primitive.uv0.empty()) surfaces[i].uv0 = primitive.uv0[i];
     if (!primitive.uv1.empty()) surfaces[i].uv1 = primitive.uv1[i];
     if (primitive.colors.empty()) continue;
-    const vec4 c = primitive.colors[i];
-    surfaces[i].color =
-        unorm(c.r, 255.0f) | unorm(c.g, 255.0f) << 8 | unorm(c.b, 255.0f) << 16 | unorm(c.a, 255.0f) << 24;
+    for (int channel = 0; channel < 4; ++channel)
+      surfaces[i].color[static_cast<std::size_t>(channel)] =
+          float_to_half(std::clamp(primitive.colors[i][channel], 0.0f, 1.0f));
   }
   return surfaces;
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -21,7 +22,7 @@ struct PackedFrame {
 struct PackedSurface {
   vec2 uv0 = vec2(0.0f);
   vec2 uv1 = vec2(0.0f);
-  std::uint32_t color = 0xFFFFFFFFu;  ///< unorm8 RGBA
+  std::array<std::uint16_t, 4> color = {0x3C00, 0x3C00, 0x3C00, 0x3C00};  ///< RGBA in 0…1, half floats
 };
 
 /// Four joints of 16 bits, four unorm16 weights.

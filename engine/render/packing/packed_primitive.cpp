@@ -26,6 +26,7 @@ PackedPrimitive pack_primitive(const Primitive& source, bool simplify) {
   primitive.morph_targets = static_cast<std::uint32_t>(ordered.morph_targets.size());
   primitive.skinned = !packed.influences.empty();
   primitive.colored = !ordered.colors.empty();
+  primitive.flat_shaded = source.flat_shaded && (primitive.skinned || primitive.morph_targets > 0);
   primitive.closed = is_closed_surface(ordered.positions, packed.indices);
   primitive.smooth_shaded = is_smooth_shaded(ordered.positions, ordered.normals, packed.indices);
   primitive.bounds = ordered.bounds;

@@ -21,7 +21,7 @@ gpu::GraphicsPipelineDesc surface_pipeline_desc(const SurfacePass& pass, Surface
   desc.attributes = {{0, 0, gpu::Format::rgb32_float, 0},
                      {1, 1, gpu::Format::rg32_uint, 0},
                      {2, 2, gpu::Format::rgba32_float, offsetof(PackedSurface, uv0)},
-                     {3, 2, gpu::Format::rgba8_unorm, offsetof(PackedSurface, color)}};
+                     {3, 2, gpu::Format::rgba16_float, offsetof(PackedSurface, color)}};
   desc.stream_strides = {sizeof(vec3), sizeof(PackedFrame), sizeof(PackedSurface)};
   if (pass.motion) {
     desc.attributes.push_back({4, 3, gpu::Format::rgb32_float, 0});

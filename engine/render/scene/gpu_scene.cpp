@@ -16,8 +16,11 @@ namespace gloam {
 
 SurfaceVariant surface_variant(const GpuMaterial& material, const GpuPrimitive& primitive, bool flipped) {
   const gpu::CullMode one_sided = flipped ? gpu::CullMode::front : gpu::CullMode::back;
-  return {material.features | (primitive.colored ? GLOAM_SURFACE_VERTEX_COLOR : 0u),
-          material.double_sided ? gpu::CullMode::none : one_sided};
+  std::uint32_t features = material.features;
+  if (primitive.colored) features |= GLOAM_SURFACE_VERTEX_COLOR;
+  if (primitive.flat_shaded) features |= GLOAM_SURFACE_FLAT;
+  if (material.double_sided && flipped) features |= GLOAM_SURFACE_FLIPPED;
+  return {features, material.double_sided ? gpu::CullMode::none : one_sided};
 }
 
 GpuScene::Sizes GpuScene::sizes_of(const SceneAssets& assets) {

@@ -69,6 +69,7 @@ void make_flat_normals(Primitive& primitive) {
   const std::vector<std::uint32_t> corners = primitive.indices;
   gather_vertices(primitive, corners);
   for (std::size_t i = 0; i < corners.size(); ++i) primitive.indices[i] = static_cast<std::uint32_t>(i);
+  primitive.flat_shaded = true;
   primitive.normals.resize(corners.size());
   for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
     const vec3 normal = unit_or(face_cross(primitive, i), kUp);

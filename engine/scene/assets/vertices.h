@@ -15,7 +15,8 @@ void gather_vertices(Primitive& primitive, std::span<const std::uint32_t> source
 /// Drops vertices that no index uses, if there are fewer indices than vertices. Primitives may share one large array.
 void drop_unused_vertices(Primitive& primitive);
 
-/// Gives every corner its own vertex with the face's normal (+Y if the triangle has no area).
+/// Gives every corner its own vertex with the face's normal (+Y if the triangle has no area). Sets
+/// Primitive::flat_shaded.
 void make_flat_normals(Primitive& primitive);
 
 /// Scales normals to unit length. A normal without length is replaced by the area-weighted normal of the faces around

@@ -34,17 +34,19 @@ T interpolated(const std::vector<T>& values, const SurfaceHit& hit, const T& oth
   return sum;
 }
 
+/// The shading normal of the front side. front_normal: of the triangle.
 vec3 interpolated_normal(const Primitive& primitive, const SurfaceSource& source, const SurfaceHit& hit,
-                         const vec3& face_normal) {
+                         const vec3& front_normal) {
   const bool deformed = !source.normals.empty();
+  if (deformed && primitive.flat_shaded) return front_normal;
   const std::vector<vec3>& normals = deformed ? source.normals : primitive.normals;
   vec3 sum(0.0f);
   for (int k = 0; k < 3; ++k) {
-    if (hit.corners[k] >= normals.size()) return face_normal;
+    if (hit.corners[k] >= normals.size()) return front_normal;
     const vec3& normal = normals[hit.corners[k]];
     sum += hit.share[k] * unit_or(deformed ? normal : source.normal_from_mesh * normal, vec3(0.0f));
   }
-  return unit_or(sum, face_normal);
+  return unit_or(sum, front_normal);
 }
 
 }  // namespace
@@ -59,8 +61,10 @@ void fetch_surface(const SceneAssets& assets, const SurfaceSource& source, const
   const Material& material = material_of(assets, primitive);
   surface.face_normal = unit_or(hit.winding_normal, -hit.direction);
   if (glm::dot(surface.face_normal, hit.direction) > 0.0f) surface.face_normal = -surface.face_normal;
-  surface.normal = interpolated_normal(primitive, source, hit, surface.face_normal);
-  if (material.double_sided && glm::dot(surface.normal, surface.face_normal) < 0.0f) surface.normal = -surface.normal;
+  // Which side is hit follows from the winding alone: shading normals may lean to the other side.
+  const bool back = material.double_sided && (glm::dot(hit.winding_normal, hit.direction) > 0.0f) != source.mirrored;
+  const float side = back ? -1.0f : 1.0f;
+  surface.normal = side * interpolated_normal(primitive, source, hit, side * surface.face_normal);
 
   const vec2 uv0 = interpolated(primitive.uv0, hit, vec2(0.0f)), uv1 = interpolated(primitive.uv1, hit, vec2(0.0f));
   const auto sampled = [&](const TextureSlot& slot) {

@@ -24,7 +24,7 @@ gpu::GraphicsPipelineDesc map_pipeline(MapDraw draw) {
   if (cut_out) {
     program.fragment = shaders::shadows::map_mask_frag;
     program.attributes.push_back({1, 1, gpu::Format::rgba32_float, offsetof(PackedSurface, uv0)});
-    program.attributes.push_back({2, 1, gpu::Format::rgba8_unorm, offsetof(PackedSurface, color)});
+    program.attributes.push_back({2, 1, gpu::Format::rgba16_float, offsetof(PackedSurface, color)});
     program.stream_strides.push_back(sizeof(PackedSurface));
   }
   return caster_pipeline_desc(program, "shadows");

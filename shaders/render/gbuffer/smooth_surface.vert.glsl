@@ -46,8 +46,9 @@ void main() {
   vec3 at = positions[corner];
   vec3 relative = turned(at) + vec3(constants.draw.row0.w, constants.draw.row1.w, constants.draw.row2.w);
   vec3 face = cross(turned(positions[1] - positions[0]), turned(positions[2] - positions[0]));
-  if (dot(face, to_viewer(view, relative)) < 0.0) face = -face;
-  float side = dot(face, normals[0] + normals[1] + normals[2]) < 0.0 ? -1.0 : 1.0;
+  // The cofactors of a mirroring matrix reverse normals, and its front faces are clockwise: both signs cancel out.
+  float side = dot(face, to_viewer(view, relative)) < 0.0 ? -1.0 : 1.0;
+  face *= side;
   bool smooth_shaded = false, proper = true;
   for (int i = 0; i < 3; ++i) {
     out_normals[i] = side * normals[i];

@@ -121,6 +121,24 @@ TEST_F(NearestSurfaces, only_double_sided_materials_have_a_back) {
   expect_near(front(10.3, 0.2).normal, {0.0f, 0.0f, 1.0f});
 }
 
+TEST_F(NearestSurfaces, normals_that_lean_to_the_back_do_not_swap_the_sides) {
+  const vec3 leaning(0.0f, 0.8f, -0.6f);
+  Primitive card = test::quad(1.0f);
+  card.normals.assign(4, leaning);
+  draw(card, two_sided());
+  dmat4 mirrored(1.0);
+  mirrored[0].x = -1.0;
+  mirrored[3].x = 5.0;
+  draw(card, two_sided(), mirrored);
+  trace();
+  for (const double x : {0.3, 5.3}) {
+    expect_near(front(x, 0.2).normal, leaning);
+    expect_near(front(x, 0.2).face_normal, {0.0f, 0.0f, 1.0f});
+    expect_near(back(x, 0.2).normal, -leaning);
+    expect_near(back(x, 0.2).face_normal, {0.0f, 0.0f, -1.0f});
+  }
+}
+
 TEST_F(NearestSurfaces, rays_end_where_they_say) {
   draw(test::quad(1.0f), {});
   trace();

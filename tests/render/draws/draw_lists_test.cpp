@@ -327,7 +327,8 @@ TEST_F(DrawListsTest, mirrored_instances_cull_the_other_faces_and_two_sided_ones
   for (const double side : {1.0, -1.0}) {
     const Draw two_sided = only(open_mesh, dvec3(side, 1.0, 1.0));
     EXPECT_EQ(two_sided.variant.cull, gpu::CullMode::none);
-    EXPECT_EQ(two_sided.variant.features, GLOAM_SURFACE_DOUBLE_SIDED);
+    const std::uint32_t flipped = side < 0.0 ? GLOAM_SURFACE_FLIPPED : 0u;
+    EXPECT_EQ(two_sided.variant.features, GLOAM_SURFACE_DOUBLE_SIDED | flipped);
   }
 }
 

@@ -84,7 +84,13 @@ TEST(PackFrames, without_tangents_there_is_a_right_handed_one) {
   EXPECT_NEAR(glm::length(unpack_normal_snorm16(frames[0].tangent)), 1.0f, 1e-5f);
 }
 
-TEST(PackSurfaces, keep_coordinates_exactly_and_colours_within_half_a_step) {
+/// Value of a half float that is not negative and finite (IEEE 754 binary16).
+double half_value(std::uint16_t bits) {
+  const int exponent = bits >> 10 & 31, mantissa = bits & 1023;
+  return exponent == 0 ? std::ldexp(mantissa, -24) : std::ldexp(1024 + mantissa, exponent - 25);
+}
+
+TEST(PackSurfaces, keep_coordinates_exactly_and_colours_as_half_floats) {
   Random random(2);
   Primitive primitive;
   for (int i = 0; i < 100; ++i) {
@@ -98,8 +104,8 @@ TEST(PackSurfaces, keep_coordinates_exactly_and_colours_within_half_a_step) {
     EXPECT_EQ(surfaces[i].uv0, primitive.uv0[i]);
     EXPECT_EQ(surfaces[i].uv1, primitive.uv1[i]);
     for (int c = 0; c < 4; ++c) {
-      const double decoded = (surfaces[i].color >> (8 * c) & 0xFFu) / 255.0;
-      EXPECT_NEAR(decoded, primitive.colors[i][c], 0.5001 / 255.0);
+      const double value = primitive.colors[i][c];
+      EXPECT_NEAR(half_value(surfaces[i].color[static_cast<std::size_t>(c)]), value, value / 2048.0 + 1e-7);
     }
   }
 }
@@ -110,9 +116,11 @@ TEST(PackSurfaces, what_is_absent_is_zero_coordinates_and_white) {
   const auto surfaces = pack_surfaces(primitive);
   EXPECT_EQ(surfaces[0].uv0, vec2(0.0f));
   EXPECT_EQ(surfaces[0].uv1, vec2(0.0f));
-  EXPECT_EQ(surfaces[0].color, 0xFFFFFFFFu);
+  for (const std::uint16_t channel : surfaces[0].color) EXPECT_EQ(half_value(channel), 1.0);
   primitive.colors = {vec4(2.0f, -1.0f, 0.0f, 1.0f)};
-  EXPECT_EQ(pack_surfaces(primitive)[0].color, 0xFF0000FFu) << "colours outside 0…1 are clamped";
+  const auto clamped = pack_surfaces(primitive)[0].color;
+  const double expected[] = {1.0, 0.0, 0.0, 1.0};
+  for (std::size_t c = 0; c < 4; ++c) EXPECT_EQ(half_value(clamped[c]), expected[c]) << "colours are clamped to 0…1";
 }
 
 TEST(PackInfluences, weights_sum_to_65535_and_stay_within_two_steps) {
