@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/scene/keys/table.h"
 #include "modules/lights/components.h"
@@ -73,9 +74,12 @@ Result<Light> read_light(const SceneValue& object) {
     light.kind = LightKind::directional;
   else
     return fault("type \"" + type->text + "\" is none of point, spot, directional");
+  constexpr double kLeast = std::numeric_limits<double>::denorm_min(), kMost = std::numeric_limits<float>::max();
   GLOAM_TRY(read_color(object, light.color));
   GLOAM_TRY(read_number(object, "intensity", 0.0, 1e12, "in 0…1e12", light.intensity));
-  GLOAM_TRY(read_number(object, "range", 1e-6, 1e9, "above 0, at most 1e9", light.range_m));
+  GLOAM_TRY(read_number(object, "range", kLeast, kMost, "above 0, at most 3.4e38", light.range_m));
+  // A positive number may round to 0, which would mean no range.
+  if (object.find("range") != nullptr) light.range_m = std::max(light.range_m, std::numeric_limits<float>::min());
   if (light.kind == LightKind::spot) GLOAM_TRY(read_spot(object, light));
   return light;
 }

@@ -39,12 +39,11 @@ double local_illuminance_at(const VisibleLights& visible, std::size_t light, con
   const dvec3 offset = dvec3(l.position) - dvec3(point);
   const double d2 = std::max(glm::dot(offset, offset), 1e-6);
   const dvec3 to_light = offset / std::sqrt(d2);
-  const double ratio = d2 * static_cast<double>(l.inverse_range_squared);
-  const double window = std::clamp(1.0 - ratio * ratio, 0.0, 1.0);
+  const double window = range_window(d2 * static_cast<double>(l.inverse_range_squared));
   const double cone = std::clamp(
       -glm::dot(to_light, dvec3(l.direction)) * static_cast<double>(l.spot_scale) + static_cast<double>(l.spot_offset),
       0.0, 1.0);
-  return luminance(l.color) * window * window * cone * cone / d2 * std::max(glm::dot(dvec3(normal), to_light), 0.0);
+  return luminance(l.color) * window * cone * cone / d2 * std::max(glm::dot(dvec3(normal), to_light), 0.0);
 }
 
 double directional_illuminance_at(const VisibleLights& visible, std::size_t light, const vec3& normal) {

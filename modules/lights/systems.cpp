@@ -6,6 +6,7 @@
 #include <array>
 #include <atomic>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <numeric>
@@ -26,13 +27,13 @@ std::uint64_t different_bits(double a, double b) {
 /// Compares bits, so that NaN equals itself. The padding after `kind` is ignored.
 bool same_light(const Light& a, const Light& b) {
   constexpr std::size_t kFirst = offsetof(Light, color);
-  using Words = std::array<std::uint64_t, (sizeof(Light) - kFirst) / sizeof(std::uint64_t)>;
+  using Words = std::array<std::uint32_t, (sizeof(Light) - kFirst) / sizeof(std::uint32_t)>;
   static_assert(sizeof(Words) + kFirst == sizeof(Light));
   Words x;
   Words y;
   std::memcpy(x.data(), reinterpret_cast<const std::byte*>(&a) + kFirst, sizeof(Words));
   std::memcpy(y.data(), reinterpret_cast<const std::byte*>(&b) + kFirst, sizeof(Words));
-  std::uint64_t different = static_cast<std::uint64_t>(a.kind) ^ static_cast<std::uint64_t>(b.kind);
+  std::uint32_t different = static_cast<std::uint32_t>(a.kind) ^ static_cast<std::uint32_t>(b.kind);
   for (std::size_t i = 0; i < x.size(); ++i) different |= x[i] ^ y[i];
   return different == 0;
 }
@@ -170,6 +171,23 @@ bool same_params(const ZBinParams& a, const ZBinParams& b) {
 
 }  // namespace
 
+float unseen_lux(const SceneEnvironment& environment) {
+  // Lights add up, and highlights are brighter than a white surface: a sixteenth of half of the darkest step.
+  constexpr double kShownAsNothing = 3e-5;
+  if (!environment.has_exposure) return kUnseenLux;
+  const double exposure = std::exp2(-static_cast<double>(environment.exposure_ev100)) / 1.2;
+  return static_cast<float>(std::clamp(kShownAsNothing / exposure, 1e-30, 1e30));
+}
+
+void light_reach_system(View<Light> lights, Resource<const SceneEnvironment> environment) {
+  const float unseen = unseen_lux(*environment);
+  lights.each([&](Entity entity, Light& light) {
+    if (light.range_m > 0.0f || light.unseen_lux == unseen) return;
+    light.unseen_lux = unseen;
+    lights.mark_changed<Light>(entity);
+  });
+}
+
 void light_bounds_system(KeptLights kept, FreshLights fresh, Resource<LightSet> set, JobExecutor& jobs,
                          Commands& commands) {
   std::vector<LightRows>& chunks = set->chunks;
@@ -230,6 +248,7 @@ void tile_light_masks_system(ViewResource<const VisibleLights> visible, ViewReso
 }
 
 void add_light_systems(Schedule& schedule) {
+  schedule.add_system("light_reach", "lights", Stage::world, &light_reach_system);
   schedule.add_system("light_bounds", "lights", Stage::world, &light_bounds_system);
   schedule.add_system("light_sort", "lights", Stage::view, &light_sort_system);
   schedule.add_system("tile_light_masks", "lights", Stage::view, &tile_light_masks_system);

@@ -5,6 +5,7 @@
 #include "engine/ecs/view.h"
 #include "engine/render/view.h"
 #include "engine/scene/components.h"
+#include "engine/scene/resources.h"
 #include "engine/schedule/schedule.h"
 #include "modules/lights/light_set.h"
 #include "modules/lights/selection/light_list.h"
@@ -13,6 +14,12 @@ namespace gloam {
 
 using KeptLights = View<const Light, const WorldTransform, LightBounds>;
 using FreshLights = View<const Light, const WorldTransform, Without<LightBounds>>;
+
+/// Illuminance on a white surface that a picture with the environment's exposure does not show.
+[[nodiscard]] float unseen_lux(const SceneEnvironment& environment);
+
+/// Sets Light::unseen_lux of lights without a range.
+void light_reach_system(View<Light> lights, Resource<const SceneEnvironment> environment);
 
 /// Finds the world's lights in all archetypes, detects changes by comparison, and updates LightBounds and LightSet.
 void light_bounds_system(KeptLights kept, FreshLights fresh, Resource<LightSet> set, JobExecutor& jobs,
@@ -31,7 +38,7 @@ void zbin_build_system(ViewResource<const VisibleLights> visible, ViewResource<c
 void tile_light_masks_system(ViewResource<const VisibleLights> visible, ViewResource<const TileBound> bound,
                              ViewResource<TileLightMasks> masks, JobExecutor& jobs);
 
-/// Adds the four systems above: light_bounds, light_sort, tile_light_masks, zbin_build.
+/// Adds the five systems above: light_reach, light_bounds, light_sort, tile_light_masks, zbin_build.
 void add_light_systems(Schedule& schedule);
 
 /// Adds the view resources that the systems need, where they are missing.

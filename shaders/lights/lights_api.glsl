@@ -13,18 +13,20 @@ LocalLight fetch_light(sampler2D texels, uint index) {
   return LocalLight(a.xyz, a.w, b.xyz, b.w, c.xyz, c.w);
 }
 
+// The window by which a light ends at its range, as KHR_lights_punctual recommends: 1 - (distance / range)^4, at least
+// 0. squared_share: (distance / range)^2.
+float range_window(float squared_share) { return clamp(1.0 - squared_share * squared_share, 0.0, 1.0); }
+
 // Illuminance, in lux, from a local light at a camera-relative point on a plane that faces the light. `to_light`: the
-// unit direction to the light. Inverse square, multiplied by a window that reaches 0 at the range, (1 - (d/range)^4)^2,
-// similar to the window that KHR_lights_punctual recommends, and by the spot's falloff.
+// unit direction to the light. Inverse square, multiplied by the window of the range and by the spot's falloff.
 vec3 local_illuminance(LocalLight light, vec3 point, out vec3 to_light) {
   vec3 offset = light.position - point;
   float d2 = max(dot(offset, offset), 1e-6);
   float inverse_distance = inversesqrt(d2);
   to_light = offset * inverse_distance;
-  float ratio = d2 * light.inverse_range_squared;
-  float window = clamp(1.0 - ratio * ratio, 0.0, 1.0);
+  float window = range_window(d2 * light.inverse_range_squared);
   float cone = clamp(dot(-to_light, light.direction) * light.spot_scale + light.spot_offset, 0.0, 1.0);
-  return light.color * (window * window * cone * cone * inverse_distance * inverse_distance);
+  return light.color * (window * cone * cone * inverse_distance * inverse_distance);
 }
 
 #endif

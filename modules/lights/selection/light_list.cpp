@@ -10,9 +10,8 @@
 namespace gloam {
 namespace {
 
-constexpr float kLeastIlluminance = 0.01f;  // lux: defines the range of a light without range_m
-constexpr float kLeastRange = 1e-3f;        // metres
-constexpr float kMostRange = 1e9f;          // metres: its square fits a float
+constexpr float kLeastRange = 1e-3f;  // metres
+constexpr float kMostRange = 1e9f;    // metres: its square fits a float
 constexpr float kHalfPi = kPi * 0.5f;
 
 float brightness(const Light& light) {
@@ -26,7 +25,7 @@ float outer_angle(const Light& light) { return std::clamp(light.outer_angle, 0.0
 
 float effective_range(const Light& light) {
   const float range =
-      light.range_m > 0.0f ? light.range_m : std::sqrt(std::max(brightness(light), 0.0f) / kLeastIlluminance);
+      light.range_m > 0.0f ? light.range_m : std::sqrt(std::max(brightness(light), 0.0f) / light.unseen_lux);
   return std::min(std::max(kLeastRange, range), kMostRange);  // this argument order turns NaN into kLeastRange
 }
 

@@ -42,10 +42,9 @@ double light_strength(const EmitterLight& light, const WorldBox& box) {
   const dvec3 beyond = glm::max(glm::max(box.min - light.position, light.position - box.max), dvec3(0.0));
   const double nearest = glm::length(beyond);
   if (!(nearest < light.range_m)) return 0.0;
-  const double ratio = nearest / light.range_m;
-  const double window = 1.0 - ratio * ratio * ratio * ratio;
+  const double share = nearest / light.range_m;
   const double near = std::max({nearest, 0.5 * radius, 1e-3});
-  return light.emitted * window * window * cone_share(light, to_box, distance, radius) / (near * near);
+  return light.emitted * range_window(share * share) * cone_share(light, to_box, distance, radius) / (near * near);
 }
 
 LightsOfEmitter strongest_lights(std::span<const EmitterLight> lights, const WorldBox& box,

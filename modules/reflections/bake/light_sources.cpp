@@ -71,9 +71,8 @@ double illuminance(const LightSource& source, const dvec3& point, const dvec3& n
     const double d2 = std::max(glm::dot(offset, offset), 1e-6);
     const dvec3 to_light = offset / std::sqrt(d2);
     const double range = effective_range(source.light);
-    const double window = std::max(0.0, 1.0 - square(d2 / (range * range)));
-    result = intensity * square(window) * cone_share(source.light, glm::dot(-to_light, source.direction)) *
-             glm::dot(normal, to_light) / d2;
+    result = intensity * range_window(d2 / (range * range)) *
+             cone_share(source.light, glm::dot(-to_light, source.direction)) * glm::dot(normal, to_light) / d2;
   }
   return std::isfinite(result) && result > 0.0 ? result : 0.0;
 }

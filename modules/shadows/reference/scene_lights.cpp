@@ -104,10 +104,8 @@ dvec3 illuminance_of(const TwinLight& light, const dvec3& point, dvec3& to_light
   const double d2 = std::max(glm::dot(offset, offset), 1e-6);
   if (d2 >= light.range2) return dvec3(0.0);
   to_light = offset / std::sqrt(d2);
-  const double ratio = d2 / light.range2;
-  const double window = 1.0 - ratio * ratio;
   const double cone = std::clamp(-glm::dot(to_light, light.axis) * light.spot_scale + light.spot_offset, 0.0, 1.0);
-  return light.color * (window * window * cone * cone / d2);
+  return light.color * (range_window(d2 / light.range2) * cone * cone / d2);
 }
 
 bool aim_at_emitter(const TwinLight& light, const dvec3& start, double x, double y, ShadowRay& ray) {

@@ -71,7 +71,7 @@ struct OracleArrival {
     const double ramp = (glm::dot(-to_light, l.direction) - outer) / std::max(inner - outer, 1e-3);
     cone = std::pow(std::clamp(ramp, 0.0, 1.0), 2.0);
   }
-  return {to_light, color * (window * window * cone / (distance * distance))};
+  return {to_light, color * (window * cone / (distance * distance))};
 }
 
 [[nodiscard]] inline dvec3 oracle_light(const OracleSurface& s, const OracleLight& l) {

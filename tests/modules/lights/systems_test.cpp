@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <glm/ext/matrix_transform.hpp>
 #include <random>
@@ -57,6 +58,37 @@ struct LightWorld : test::ModuleWorld {
     return hasher.digest();
   }
 };
+
+TEST(LightReach, a_light_without_a_range_ends_where_no_exposure_shows_it) {
+  LightWorld lit(2);
+  Light lamp;
+  lamp.intensity = 4.0f;
+  const Entity endless = lit.world.create(lamp, WorldTransform{});
+  auto& environment = lit.world.resource<SceneEnvironment>();
+  const auto reach = [&] {
+    lit.run();
+    return static_cast<double>(effective_range(lit.world.get<Light>(endless)));
+  };
+  const float ranged = lit.world.get<Light>(lit.entities[0]).range_m;
+  EXPECT_NEAR(reach(), 2000.0, 1e-2);
+  for (const float ev : {-20.0f, -10.0f, 0.0f, 12.0f, 20.0f, 100.0f}) {
+    environment.has_exposure = true;
+    environment.exposure_ev100 = ev;
+    const double metres = reach(), white = 1.2 * std::exp2(static_cast<double>(ev));  // cd/m²
+    const double shown = 4.0 / (metres * metres) / 3.14159265 / white;  // of a white surface at the end, linear
+    EXPECT_LT(shown, 1.0 / (255.0 * 12.92 * 2.0) / 8.0) << "the darkest step is at least eight times as bright: " << ev;
+    if (ev > -10.0f && ev < 20.0f) {
+      EXPECT_GT(shown, 1.0 / (255.0 * 12.92 * 2.0) / 64.0) << "lists stay small: " << ev;
+    }
+  }
+  EXPECT_EQ(lit.world.get<Light>(lit.entities[0]).range_m, ranged);
+  EXPECT_EQ(lit.world.get<Light>(lit.entities[0]).unseen_lux, kUnseenLux);
+  const std::uint64_t version = lit.set().version;
+  (void)reach();
+  EXPECT_EQ(lit.set().version, version) << "nothing changed";
+  environment.has_exposure = false;
+  EXPECT_NEAR(reach(), 2000.0, 1e-2);
+}
 
 TEST(LightSystems, have_their_names) {
   LightWorld lit(1);

@@ -78,7 +78,7 @@ TEST_F(LightPickTest, tells_what_each_light_adds) {
   // One candela per colour channel at the distance d, the cosine 0.5 / d, and the window of a range of 1.5 m.
   const double d = glm::distance(*position, dvec3(-2.5, 0.5, -4.5));
   const double window = 1.0 - std::pow(d / 1.5, 4.0);
-  const double lux = 1.0 + window * window * 0.5 / (d * d * d);
+  const double lux = 1.0 + window * 0.5 / (d * d * d);
   const auto line = std::find_if(lines.begin(), lines.end(),
                                  [](const std::string& l) { return l.starts_with("illuminance before shadows "); });
   ASSERT_NE(line, lines.end());

@@ -39,13 +39,13 @@ TEST(EffectiveRange, is_the_range_that_was_set) {
   EXPECT_EQ(effective_range(light), 3.5f);
 }
 
-TEST(EffectiveRange, without_a_range_is_where_the_light_falls_to_a_hundredth_lux) {
+TEST(EffectiveRange, without_a_range_is_where_the_light_falls_to_a_millionth_lux) {
   Light light;
   light.intensity = 4.0f;
-  EXPECT_FLOAT_EQ(effective_range(light), 20.0f);
+  EXPECT_FLOAT_EQ(effective_range(light), 2000.0f);
   light.color = vec3(0.25f, 0.0f, 0.1f);
-  EXPECT_FLOAT_EQ(effective_range(light), 10.0f) << "the brightest channel counts";
-  EXPECT_NEAR(light.intensity * light.color.r / (effective_range(light) * effective_range(light)), 0.01f, 1e-6f);
+  EXPECT_FLOAT_EQ(effective_range(light), 1000.0f) << "the brightest channel counts";
+  EXPECT_NEAR(light.intensity * light.color.r / (effective_range(light) * effective_range(light)), 1e-6f, 1e-10f);
 }
 
 TEST(EffectiveRange, is_a_positive_number_whose_square_is_a_float_for_any_light) {

@@ -29,7 +29,7 @@ struct TwinLamp {
 [[nodiscard]] inline dvec3 twin_illuminance(const TwinLamp& lamp, const dvec3& at) {
   const double d = std::max(glm::length(lamp.position - at), 1e-3);
   const double window = std::clamp(1.0 - std::pow(d / lamp.range_m, 4.0), 0.0, 1.0);
-  return lamp.candela * (window * window / (d * d));
+  return lamp.candela * (window / (d * d));
 }
 
 /// Of the light L from all directions ω a particle scatters albedo ∫ L (1 + n·ω) dω / 4π: here for one direction.

@@ -86,7 +86,7 @@ TEST_F(ProxyLights, illuminance_follows_the_inverse_square_cosine_window_and_con
   const dvec3 point(1.5, 0.0, 0.0), offset(-1.5, 0.0, 4.0);
   const double d2 = glm::dot(offset, offset), cosine = 4.0 / std::sqrt(d2);
   const double ramp = (cosine - std::cos(0.6f)) / (std::cos(0.2f) - std::cos(0.6f));
-  const double expected = 50.0 / d2 * cosine * ramp * ramp * std::pow(1.0 - std::pow(d2 / 64.0, 2.0), 2.0);
+  const double expected = 50.0 / d2 * cosine * ramp * ramp * (1.0 - std::pow(d2 / 64.0, 2.0));
   EXPECT_NEAR(illuminance(light_sources(base.world)[0], point, dvec3(0, 0, 1)), expected, 1e-5 * expected);
 
   Light sun;
