@@ -87,6 +87,7 @@ struct SceneEnvironment {
   vec3 sky_zenith = vec3(0.0f);  ///< cd/m²
   vec3 sky_horizon = vec3(0.0f);
   vec3 sky_ground = vec3(0.0f);
+  bool has_sky = false;  ///< a key has set the sky, to black perhaps
   bool has_exposure = false;
   float exposure_ev100 = 0.0f;
 };

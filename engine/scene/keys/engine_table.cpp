@@ -20,7 +20,9 @@ SceneKey sky_key(std::string name, std::string meaning, vec3 SceneEnvironment::*
   key.default_text = "[0, 0, 0]";
   key.meaning = std::move(meaning);
   key.set = [member](KeyTarget& target, const KeyValue& value) -> Status {
-    target.world.resource<SceneEnvironment>().*member = std::get<vec3>(value);
+    auto& environment = target.world.resource<SceneEnvironment>();
+    environment.*member = std::get<vec3>(value);
+    environment.has_sky = true;
     return {};
   };
   return key;

@@ -19,6 +19,7 @@ constexpr float kExposureEv100 = 11.7f;
 bool is_black(const vec3& color) { return color.x <= 0.0f && color.y <= 0.0f && color.z <= 0.0f; }
 
 bool has_light(const World& world, const SceneEnvironment& environment) {
+  if (environment.has_sky) return true;  // also of zero: the file asks for a black sky
   if (!is_black(environment.sky_zenith) || !is_black(environment.sky_horizon) || !is_black(environment.sky_ground))
     return true;
   bool found = false;

@@ -3,8 +3,11 @@
 #include "engine/scene/gltf/entities/node_import.h"
 
 #include <cmath>
+#include <limits>
 #include <string>
 
+#include "engine/math/world_box.h"
+#include "engine/scene/assets.h"
 #include "engine/scene/components.h"
 #include "engine/scene/gltf/place.h"
 #include "engine/scene/resources.h"
@@ -29,9 +32,10 @@ Result<Camera> import_camera(const CameraSource& source) {
     if (!(static_cast<float>(source.znear) > 0.0f)) return refuse("znear must be > 0");
   }
   camera.near_m = static_cast<float>(source.znear);
-  camera.far_m = static_cast<float>(source.zfar);
+  const bool endless = !source.orthographic && source.zfar > double{std::numeric_limits<float>::max()};
+  camera.far_m = endless ? 0.0f : static_cast<float>(source.zfar);
   if (!std::isfinite(camera.near_m + camera.far_m)) return refuse("znear and zfar are too large");
-  const bool infinite = source.zfar == 0.0 && !source.orthographic;
+  const bool infinite = (source.zfar == 0.0 && !source.orthographic) || endless;
   if (!infinite && !(camera.far_m > camera.near_m)) return refuse("zfar must be larger than znear");
   return camera;
 }
@@ -98,6 +102,43 @@ class NodeImporter {
   World& world_;
 };
 
+/// Bounds of all meshes at rest.
+WorldBox scene_box(const Document& document, const SceneNodeOrder& nodes, const std::vector<dmat4>& worlds,
+                   const std::vector<Mesh>& meshes) {
+  WorldBox all;
+  for (const std::uint32_t i : nodes.order) {
+    if (document.nodes[i].mesh == kNone) continue;
+    const WorldBox box = world_box(meshes[document.nodes[i].mesh].bounds, worlds[i]);
+    if (!box.known()) continue;
+    all.min = glm::min(all.min, box.min);
+    all.max = glm::max(all.max, box.max);
+  }
+  return all;
+}
+
+/// Greatest distance of the box's corners along the view direction of a node.
+double farthest_depth(const WorldBox& box, const dmat4& world_from_camera) {
+  const dvec3 back(world_from_camera[2]);
+  const double length = glm::length(back);
+  if (!box.known() || !(length > 0.0)) return 0.0;
+  const dvec3 corner = glm::mix(box.min, box.max, glm::lessThan(back, dvec3(0.0)));
+  return -glm::dot(corner - dvec3(world_from_camera[3]), back) / length;
+}
+
+/// Warns of the first perspective camera that sees meshes beyond its zfar. Exporters write a zfar for every camera, so
+/// one that cuts nothing off is no news.
+void warn_of_zfar(Document& document, const SceneNodeOrder& nodes, const std::vector<dmat4>& worlds,
+                  const WorldBox& box) {
+  for (const std::uint32_t i : nodes.order) {
+    if (document.nodes[i].camera == kNone) continue;
+    const CameraSource& source = document.cameras[document.nodes[i].camera];
+    if (source.orthographic || !(source.zfar > 0.0) || !(farthest_depth(box, worlds[i]) > source.zfar)) continue;
+    document.warnings.push_back(place("camera", document.nodes[i].camera, source.name) +
+                                ": its zfar is ignored, perspective cameras see to any distance");
+    return;
+  }
+}
+
 }  // namespace
 
 Result<std::vector<Entity>> import_nodes(Document& document, const SceneNodeOrder& nodes,
@@ -120,6 +161,7 @@ Result<std::vector<Entity>> import_nodes(Document& document, const SceneNodeOrde
     if (node.mesh != kNone) GLOAM_TRY(importer.add_mesh(i, entities[i]));
     if (node.camera != kNone) GLOAM_TRY(importer.add_camera(i, entities[i]));
   }
+  warn_of_zfar(document, nodes, *worlds, scene_box(document, nodes, *worlds, world.resource<SceneAssets>().meshes));
   return entities;
 }
 

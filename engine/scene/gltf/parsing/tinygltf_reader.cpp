@@ -85,12 +85,27 @@ Status check_byte_sources(const JsonScan& scan, const Container& file) {
   return {};
 }
 
-/// A copy of the file in which fallback buffers hold one byte. Their content is never read, and tinygltf wants a uri.
-Container without_fallbacks(const Container& file, const JsonScan& scan) {
+/// The numbers of spot lights without a `spot` object. They have the default cone, but tinygltf refuses them.
+std::vector<std::size_t> spots_without_cone(const JsonScan& scan) {
+  std::vector<std::size_t> spots;
+  const SceneValue* extension = scan.root_extensions.find("KHR_lights_punctual");
+  const SceneValue* lights = extension != nullptr ? extension->find("lights") : nullptr;
+  for (std::size_t i = 0; lights != nullptr && i < lights->items.size(); ++i) {
+    const SceneValue* type = lights->items[i].find("type");
+    if (type != nullptr && type->text == "spot" && lights->items[i].find("spot") == nullptr) spots.push_back(i);
+  }
+  return spots;
+}
+
+/// A copy of the file that tinygltf reads: fallback buffers, whose content is never read, hold one byte, because it
+/// wants a uri, and spots have a `spot` object.
+Container made_readable(const Container& file, const JsonScan& scan, const std::vector<std::size_t>& spots) {
   nlohmann::json root = nlohmann::json::parse(file.json());
   for (std::size_t i = 0; i < scan.buffers.size(); ++i)
     if (scan.buffers[i].fallback)
       root["buffers"][i] = {{"byteLength", 1}, {"uri", "data:application/octet-stream;base64,AA=="}};
+  for (const std::size_t i : spots)
+    root["extensions"]["KHR_lights_punctual"]["lights"][i]["spot"] = nlohmann::json::object();
   const std::string text = root.dump();
   std::vector<std::uint8_t> bytes;
   if (!file.binary) {
@@ -333,8 +348,10 @@ void translate_all(const std::vector<From>& from, std::vector<To>& to) {
 Result<Document> read_document(const Container& file, const JsonScan& scan, const std::string& directory) {
   GLOAM_TRY(check_byte_sources(scan, file));
   const bool fallbacks = std::ranges::any_of(scan.buffers, &ByteSource::fallback);
-  Result<tinygltf::Model> loaded =
-      fallbacks ? load_model(without_fallbacks(file, scan), scan, directory) : load_model(file, scan, directory);
+  const std::vector<std::size_t> spots = spots_without_cone(scan);
+  Result<tinygltf::Model> loaded = fallbacks || !spots.empty()
+                                       ? load_model(made_readable(file, scan, spots), scan, directory)
+                                       : load_model(file, scan, directory);
   if (!loaded) return loaded.error();
   tinygltf::Model& model = *loaded;
   Document document;
