@@ -127,6 +127,16 @@ class Module {
   /// its systems have run anyway. Must be cheap: look at counts, never at pixels.
   [[nodiscard]] virtual Demand demand(const World& world, const RenderView* view) const = 0;
 
+  /// Why the module does nothing with these knobs, e.g. "shadows.mode=off"; empty: it may do something. Then it counts
+  /// as not demanded: no systems, no passes, and its memory is freed after 120 frames. Asked for the knobs of the frame
+  /// if the world demands the module, and for the knobs of each view.
+  [[nodiscard]] virtual std::string switched_off(const World&, const KnobRegistry&) const { return {}; }
+  /// Whether the module itself draws something into the view that lights may light: surfaces, sprites or fog. If there
+  /// is none of it, no mesh and no geometry of the host, only sky is seen (SeenSurfaces), and modules that light, shade
+  /// or smooth surfaces are idle. A module that only works on what others draw returns false. Called like demand() with
+  /// a view; SeenSurfaces is not known yet.
+  [[nodiscard]] virtual bool shows_surfaces(const World&, const RenderView&) const { return true; }
+
   /// Called before the systems of the world run, if the world demands the module. Stores the knob values that they need
   /// in resources of the world.
   virtual void prepare_world(World&, const KnobRegistry&) const {}

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "engine/render/frame_builder.h"
+#include "engine/render/seen_surfaces.h"
 #include "engine/render/worlds/world_id.h"
 #include "engine/scene/components.h"
 #include "engine/scene/keys/table.h"
@@ -96,6 +97,11 @@ class CloseupsModule final : public Module {
                             -1e6, 1e6, &CloseupSubject::priority));
     registry.add_finish("closeups", &check_subjects);
   }
+  [[nodiscard]] bool shows_surfaces(const World&, const RenderView&) const override { return false; }
+  [[nodiscard]] std::string switched_off(const World&, const KnobRegistry& knobs) const override {
+    if (closeup_knobs(knobs).max_pairs == 0) return "closeups.max_pairs=0";
+    return knobs.value(kShadowMode) == ShadowMode::off ? "shadows.mode=off" : "";
+  }
   /// For a view: needed if a pair touches it, even if no pair gets a map (counter closeups.skipped).
   [[nodiscard]] Demand demand(const World& world, const RenderView* view) const override {
     std::size_t subjects = 0;
@@ -106,6 +112,7 @@ class CloseupsModule final : public Module {
     if (view == nullptr) return {true, words};
     // Captures share standard maps, so subjects stay in them.
     if (view->purpose == ViewPurpose::capture) return {false, "captures have no close-ups"};
+    if (!sees_surfaces(world, *view)) return {false, words + ", only sky in view"};
     const CloseupViews& views = world.view_resource<CloseupViews>(view->id);
     return {views.in_view > 0, std::to_string(views.in_view) + " close-up pairs in view, " +
                                    std::to_string(views.pairs.size()) + " with close-up maps"};

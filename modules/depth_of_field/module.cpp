@@ -63,6 +63,7 @@ class DepthOfFieldModule final : public Module {
       references.push_back(lens_reference(std::string(knob)));
     return references;
   }
+  [[nodiscard]] bool shows_surfaces(const World&, const RenderView&) const override { return false; }
   [[nodiscard]] Demand demand(const World& world, const RenderView* view) const override {
     if (view != nullptr) return view_demand(world, *view);
     std::size_t cameras = 0;

@@ -132,14 +132,14 @@ void announce_grass(FrameBuilder& frame) {
   frame.put(GrassOnBoard(grass));
   const float cast_distance_m = grass_knobs(frame.knobs()).cast_distance_m;
   const WorldBox box = casting_box(frame.world().resource<GrassField>(), visible.patches, cast_distance_m);
-  if (cast_distance_m > 0.0f && box.known()) add_blade_casters(frame, grass, box);
+  if (visible.cast && box.known()) add_blade_casters(frame, grass, box);
 }
 
 void add_grass_passes(FrameBuilder& frame, GrassWorlds& worlds) {
   const GrassOnBoard* board = frame.find<GrassOnBoard>();
   if (board == nullptr) return;
   const World& world = frame.world();
-  const GrassKnobs knobs = grass_knobs(frame.knobs());
+  GrassKnobs knobs = grass_knobs(frame.knobs());
   const GrassField& field = world.resource<GrassField>();
   const VisiblePatches& visible = world.view_resource<VisiblePatches>(frame.view().id);
   const std::uint64_t number = world_id(world);
@@ -161,6 +161,7 @@ void add_grass_passes(FrameBuilder& frame, GrassWorlds& worlds) {
   inputs.group_masters = simulation_group_masters(inputs.threads);
   inputs.steps = steps_of(world, knobs.iterations);
   const std::optional<std::uint32_t> groups = groups_of(frame, knobs, inputs.group_masters);
+  if (!visible.cast) knobs.cast_distance_m = 0.0f;
   inputs.lod = grass_lod(frame.view(), knobs, visible.range_m, longest_blade(field, stored.patches));
   inputs.lod.most_masters = groups ? *groups * inputs.group_masters : ~0u;
   inputs.lod.steps_per_s = static_cast<float>(1.0 / kGrassStep);

@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "engine/math/finite.h"
+#include "engine/math/frustum.h"
 #include "engine/render/frame_builder.h"
+#include "engine/render/seen_surfaces.h"
 #include "engine/render/worlds/world_id.h"
 #include "modules/grass/components.h"
 #include "modules/grass/debug/lod_view.h"
@@ -18,7 +20,9 @@
 #include "modules/grass/keys.h"
 #include "modules/grass/simulation/colliders.h"
 #include "modules/grass/simulation/simulate_blades_pass.h"
+#include "modules/lights/components.h"
 #include "modules/shadows/components.h"
+#include "modules/shadows/outputs.h"
 
 namespace gloam {
 namespace {
@@ -39,15 +43,34 @@ void set_texel_grid(World& world, const GrassField& field) {
   }
 }
 
+using ShadowingLights = View<const Light, const WorldTransform, Maybe<const ShadowCaster>>;
+
 /// Culling of the view's patches, from the knobs. A view resource.
 struct GrassViewSettings {
   PatchCulling culling;
 };
 
+/// The lights that cast shadows and reach the view.
+std::vector<CastingLight> casting_lights_of(const ShadowingLights& lights, const RenderView& view) {
+  std::vector<CastingLight> found;
+  lights.each([&](const Light& light, const WorldTransform& transform, const ShadowCaster* caster) {
+    if ((caster != nullptr && !caster->enabled) || !(light.intensity > 0.0f)) return;
+    const CastingLight casting{light.kind == LightKind::directional, dvec3(transform.matrix[3]),
+                               vec3(-glm::normalize(dvec3(transform.matrix[2]))), effective_range(light)};
+    const Sphere reach{vec3(casting.position - view.position), casting.range_m};
+    if (casting.directional || may_intersect(view.frustum, reach)) found.push_back(casting);
+  });
+  return found;
+}
+
 void grass_patches_system(Resource<const GrassField> field, ViewResource<const RenderView> view,
-                          ViewResource<const GrassViewSettings> settings, ViewResource<VisiblePatches> visible,
-                          JobExecutor& jobs) {
-  *visible = find_visible_patches(field->patches, *view, settings->culling, jobs);
+                          ViewResource<const GrassViewSettings> settings, ShadowingLights lights,
+                          ViewResource<VisiblePatches> visible, JobExecutor& jobs) {
+  std::vector<CastingLight> casting;
+  if (settings->culling.cast_distance_m > 0.0f) casting = casting_lights_of(lights, *view);
+  PatchCulling culling = settings->culling;
+  culling.lights = casting;
+  *visible = find_visible_patches(field->patches, *view, culling, jobs);
 }
 
 class GrassModule final : public Module {
@@ -79,10 +102,21 @@ class GrassModule final : public Module {
     if (view != nullptr) {
       if (view->static_only) return {false, "grass moves"};
       const auto* visible = world.try_view_resource<VisiblePatches>(view->id);
+      if (world.resource<GrassGrowthSettings>().density_scale == 0.0f) return {false, "grass.density_scale=0"};
       if (visible == nullptr || visible->patches.empty()) return {false, "no grass in view"};
+      if (visible->in_view == 0 && !sees_surfaces(world, *view)) return {false, "no grass and only sky in view"};
       return {true, std::to_string(visible->patches.size()) + " patches of grass in view"};
     }
     return {true, std::to_string(surfaces) + (surfaces == 1 ? " surface grows grass" : " surfaces grow grass")};
+  }
+  [[nodiscard]] bool shows_surfaces(const World& world, const RenderView& view) const override {
+    const auto* visible = world.try_view_resource<VisiblePatches>(view.id);
+    return visible != nullptr && visible->in_view > 0;
+  }
+  /// One frame with a density of 0 removes the blades.
+  [[nodiscard]] std::string switched_off(const World& world, const KnobRegistry& knobs) const override {
+    const bool off = grass_knobs(knobs).density_scale == 0.0 && world.resource<GrassEntities>().patches.empty();
+    return off ? "grass.density_scale=0" : "";
   }
   void add_systems(Schedule& schedule) override {
     schedule.add_system("grass_growth", "grass", Stage::world, &grass_growth_system);
@@ -102,7 +136,9 @@ class GrassModule final : public Module {
     if (world.resource<GrassEntities>().field_version != field.version) make_blade_entities(world, field);
     if (world.resource<GrassEntities>().field_moves != field.moves) move_patch_entities(world, field);
     if (world.try_view_resource<VisiblePatches>(view) == nullptr) world.set_view_resource(view, VisiblePatches{});
-    world.set_view_resource(view, GrassViewSettings{{.cast_distance_m = grass_knobs(registry).cast_distance_m}});
+    const bool shadows = registry.value(kShadowMode) != ShadowMode::off;
+    const float cast_distance_m = shadows ? grass_knobs(registry).cast_distance_m : 0.0f;
+    world.set_view_resource(view, GrassViewSettings{{.cast_distance_m = cast_distance_m}});
   }
   [[nodiscard]] std::vector<VisualizerInfo> visualizers() const override { return grass_visualizers(); }
   void pipelines(const KnobRegistry& registry, const gpu::DeviceInfo& device, PipelineList& list) const override {

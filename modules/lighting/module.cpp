@@ -48,6 +48,7 @@ class LightingModule final : public Module {
     world.set_view_resource(view, HighlightFilter{variance});
   }
 
+  [[nodiscard]] bool shows_surfaces(const World&, const RenderView&) const override { return false; }
   [[nodiscard]] Demand demand(const World&, const RenderView*) const override { return {true, "every picture is lit"}; }
 
   [[nodiscard]] bool essential() const override { return true; }

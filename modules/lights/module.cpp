@@ -5,6 +5,7 @@
 #include "engine/core/once_log.h"
 #include "engine/ecs/view.h"
 #include "engine/render/frame_builder.h"
+#include "engine/render/seen_surfaces.h"
 #include "modules/lights/debug/measures.h"
 #include "modules/lights/debug/oversights.h"
 #include "modules/lights/debug/pick.h"
@@ -39,10 +40,12 @@ class LightsModule final : public Module {
 
   void add_systems(Schedule& schedule) override { add_light_systems(schedule); }
 
+  [[nodiscard]] bool shows_surfaces(const World&, const RenderView&) const override { return false; }
   [[nodiscard]] Demand demand(const World& world, const RenderView* view) const override {
     const std::size_t count = world.view<const Light>().size();
     if (count == 0) return {false, "no light"};
     const std::string lights = std::to_string(count) + (count == 1 ? " light" : " lights");
+    if (view != nullptr && !sees_surfaces(world, *view)) return {false, lights + ", only sky in view"};
     const VisibleLights* visible = view == nullptr ? nullptr : world.try_view_resource<VisibleLights>(view->id);
     if (visible != nullptr && visible->block.local_count + visible->block.directional_count == 0)
       return {false, lights + ", none in view"};

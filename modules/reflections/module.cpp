@@ -3,6 +3,7 @@
 #include "modules/reflections/module.h"
 
 #include "engine/render/frame_builder.h"
+#include "engine/render/seen_surfaces.h"
 #include "engine/scene/assets.h"
 #include "engine/scene/keys/table.h"
 #include "modules/lighting/outputs.h"
@@ -121,6 +122,10 @@ class ReflectionsModule final : public Module {
                        CompanionViews& companions) const override {
     add_mirrored_view(world, main, reflection_knobs(knobs), companions);
   }
+  [[nodiscard]] bool shows_surfaces(const World&, const RenderView&) const override { return false; }
+  [[nodiscard]] std::string switched_off(const World&, const KnobRegistry& knobs) const override {
+    return reflection_knobs(knobs).mode == ReflectionKnobs::Mode::off ? "reflections.mode=off" : "";
+  }
   /// Proxies and probes alone demand nothing: only reflective materials show them.
   [[nodiscard]] Demand demand(const World& world, const RenderView* view) const override {
     if (view != nullptr && view->purpose == ViewPurpose::capture) return {false, "captures have no reflections"};
@@ -129,6 +134,7 @@ class ReflectionsModule final : public Module {
       return std::to_string(number) + (number == 1 ? one : many);
     };
     if (materials.mirror + materials.rough == 0) return {false, "no reflective material"};
+    if (view != nullptr && !sees_surfaces(world, *view)) return {false, "only sky in view"};
     const std::size_t probes = world.view<const CubeProbe>().size();
     if (materials.mirror == 0 && probes == 0) return {false, "no smooth material and no probe"};
     return {true, count(materials.mirror + materials.rough, " reflective material, ", " reflective materials, ") +

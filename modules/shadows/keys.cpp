@@ -7,6 +7,7 @@
 #include <string>
 
 #include "engine/ecs/view.h"
+#include "engine/render/seen_surfaces.h"
 #include "engine/scene/components.h"
 #include "engine/scene/keys/table.h"
 #include "modules/lights/outputs.h"
@@ -71,6 +72,7 @@ Demand shadow_demand(const World& world, const RenderView* view) {
   const LightCounts counts = count_lights(world);
   if (counts.casting + counts.cookies == 0) return {false, "no light casts shadows"};
   const std::string words = words_of(counts);
+  if (view != nullptr && !sees_surfaces(world, *view)) return {false, words + ", only sky in view"};
   if (view == nullptr || (counts.cookies > 0 && shows_cookie(world, view->id))) return {true, words};
   const ShadowSettings* settings = world.try_view_resource<ShadowSettings>(view->id);
   if (settings != nullptr && !settings->enabled) return {false, words + ", but shadows.mode=off"};

@@ -52,6 +52,10 @@ class ShadowsModule final : public Module {
   [[nodiscard]] std::vector<MeasureInfo> measures() const override { return shadow_measures(); }
   void add_systems(Schedule& schedule) override { add_shadow_systems(schedule); }
 
+  [[nodiscard]] bool shows_surfaces(const World&, const RenderView&) const override { return false; }
+  [[nodiscard]] std::string switched_off(const World& world, const KnobRegistry& knobs) const override {
+    return knobs.value(kShadowMode) == ShadowMode::off && count_cookie_lights(world) == 0 ? "shadows.mode=off" : "";
+  }
   [[nodiscard]] Demand demand(const World& world, const RenderView* view) const override {
     return shadow_demand(world, view);
   }

@@ -1,9 +1,12 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "modules/closeups/components.h"
+#include "modules/shadows/components.h"
 #include "tests/render/demand_fixture.h"
 
 namespace gloam {
@@ -277,6 +280,108 @@ TEST_F(DemandFrames, lights_work_for_the_view_that_sees_them_alone) {
   EXPECT_EQ(seen("lights").bytes, bytes);
   frames(1, {away});
   EXPECT_EQ(seen("lights").passes, 0u);
+}
+
+/// A renderer of all modules.
+class DemandOfAll : public test::DemandTest {
+ protected:
+  void SetUp() override {
+    every_module_ = true;
+    make_renderer(Readiness::wait);
+  }
+  /// Above the camera, so that only sky is in view, also of the lights' ranges.
+  [[nodiscard]] static ViewRequest skyward() {
+    ViewRequest up = request();
+    up.settings.world_from_camera = test::look_at(dvec3(2.0, 3.0, 9.0), dvec3(2.0, 9.0, 9.5), 64, 40).world_from_camera;
+    return up;
+  }
+  [[nodiscard]] const ModuleState& state_of(std::string_view name) const {
+    for (const ModuleState& state : renderer_->report().modules)
+      if (state.name == name) return state;
+    ADD_FAILURE() << "there is no module " << name;
+    return renderer_->report().modules.front();
+  }
+  [[nodiscard]] std::set<std::string> pass_names() const {
+    std::set<std::string> names;
+    for (const PassTime& pass : renderer_->report().passes) names.insert(pass.name);
+    return names;
+  }
+  void expect_idle(std::string_view name, std::string_view why) {
+    const Seen n = seen(std::string(name));
+    EXPECT_EQ(n.passes + n.dispatches + n.draws, 0u) << name << " " << why;
+    EXPECT_EQ(n.bytes, 0u) << name << " " << why;
+  }
+};
+
+TEST_F(DemandOfAll, with_only_sky_in_view_there_is_no_light_search_no_shadow_and_no_antialiasing) {
+  ASSERT_TRUE(renderer_->knobs().set("lighting.antialiasing", "smaa").ok());
+  for (const LightKind kind : {LightKind::point, LightKind::spot, LightKind::directional}) {
+    Light light;
+    light.kind = kind;
+    light.intensity = 10.0f;
+    light.range_m = 1000.0f;  // reaches the view
+    world_->create(light, ShadowCaster{}, WorldTransform{glm::translate(dmat4(1.0), dvec3(0.0, 4.0, 0.0))});
+  }
+  frames(3);
+  EXPECT_GT(seen("lights").passes, 0u);
+  EXPECT_GT(seen("shadows").passes, 0u);
+  EXPECT_THAT(pass_names(), testing::Contains("antialiasing_edges"));
+  frames(3, {skyward()});
+  EXPECT_EQ(seen("lights").passes + seen("shadows").passes + seen("reflections").passes, 0u);
+  EXPECT_FALSE(pass_names().contains("antialiasing_edges"));
+  EXPECT_TRUE(pass_names().contains("tone_map"));
+  frames(kFramesKept, {skyward()});
+  for (const char* module : {"lights", "shadows", "closeups", "reflections"}) expect_idle(module, "after 120 frames");
+  frames(3);
+  EXPECT_GT(seen("lights").passes, 0u);
+  EXPECT_GT(seen("shadows").passes, 0u);
+  EXPECT_THAT(pass_names(), testing::Contains("antialiasing_edges"));
+}
+
+TEST_F(DemandOfAll, fog_before_the_sky_keeps_the_lights) {
+  world_->create(Light{.intensity = 10.0f, .range_m = 1000.0f}, WorldTransform{});
+  world_->create(Fog{0.05f, vec3(1.0f, 2.0f, 3.0f)});
+  frames(3, {skyward()});
+  EXPECT_GT(seen("fog").passes, 0u);
+  EXPECT_GT(seen("lights").passes, 0u);
+}
+
+TEST_F(DemandOfAll, a_knob_that_switches_a_module_off_is_no_demand) {
+  world_->create(Light{.intensity = 10.0f}, ShadowCaster{},
+                 WorldTransform{glm::translate(dmat4(1.0), dvec3(2.0, 4.0, 3.0))});
+  world_->resource<SceneAssets>().materials.front().metallic = 1.0f;
+  world_->resource<SceneAssets>().materials.front().roughness = 0.0f;
+  ++world_->resource<SceneAssets>().version;
+  Entity subject;
+  world_->view<const MeshInstance>().each([&](Entity entity, const MeshInstance&) { subject = entity; });
+  world_->add(subject, CloseupSubject{.enabled = true});
+  const std::pair<const char*, std::pair<const char*, const char*>> knobs[] = {
+      {"closeups", {"closeups.max_pairs", "0"}},
+      {"reflections", {"reflections.mode", "off"}},
+      {"shadows", {"shadows.mode", "off"}}};
+  frames(3);
+  for (const auto& [module, knob] : knobs) {
+    const std::string was = renderer_->knobs().text(*renderer_->knobs().find(knob.first));
+    EXPECT_TRUE(state_of(module).demanded) << module;
+    EXPECT_GT(seen(module).passes, 0u) << module;
+    ASSERT_TRUE(renderer_->knobs().set(knob.first, knob.second).ok());
+    frames();
+    EXPECT_EQ(seen(module).passes, 0u) << module;
+    EXPECT_THAT(seen(module).systems, IsEmpty()) << module;
+    EXPECT_FALSE(state_of(module).demanded) << module;
+    EXPECT_THAT(state_of(module).reason, testing::HasSubstr(std::string(knob.first) + "=" + knob.second));
+    frames(kFramesKept);
+    expect_idle(module, knob.first);
+    ASSERT_TRUE(renderer_->knobs().set(knob.first, was).ok());
+    frames(2);
+    EXPECT_GT(seen(module).passes, 0u) << module;
+  }
+  // A view of its own may have what the others switch off.
+  ASSERT_TRUE(renderer_->knobs().set("shadows.mode", "off").ok());
+  ViewRequest own = request(1);
+  own.settings.knobs = {{"shadows.mode", "deferred"}};
+  frames(2, {request(), own});
+  EXPECT_GT(seen("shadows").passes, 0u);
 }
 
 TEST_F(DemandFrames, fog_without_density_is_no_fog) {

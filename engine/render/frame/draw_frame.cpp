@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/render/frame/draw_frame.h"
 
+#include <algorithm>
 #include <chrono>
 #include <string>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "engine/render/attempt.h"
 #include "engine/render/frame/stages.h"
 #include "engine/render/report/oversights.h"
+#include "engine/render/seen_surfaces.h"
 #include "engine/scene/resources.h"
 
 namespace gloam {
@@ -53,6 +55,17 @@ Status build_draws(Frame& frame, RendererParts& parts) {
   return {};
 }
 
+/// Notes whether a view may see anything but the sky.
+void note_surfaces(Frame& frame, std::size_t index, RendererParts& parts) {
+  const FrameView& own = frame.views[index];
+  const ViewDraws& draws = frame.draws.views[index];
+  const ViewId id = own.request.settings.id;
+  frame.world.set_view_resource(id, SeenSurfaces{});  // modules must not see the answer of the last frame
+  const bool any = !draws.solid.empty() || !draws.blended.empty() || own.request.geometry ||
+                   parts.modules.view_shows_surfaces(frame.query_of(own));
+  frame.world.set_view_resource(id, SeenSurfaces{any});
+}
+
 /// Everything between Device::begin_frame and submit_frame.
 Status record_frame(Frame& frame, RendererParts& parts, gpu::CommandList& commands) {
   FrameResources& resources = parts.resources;
@@ -62,6 +75,7 @@ Status record_frame(Frame& frame, RendererParts& parts, gpu::CommandList& comman
   GLOAM_TRY(add_companions(frame, parts.modules, *parts.options.device));
   GLOAM_TRY(prepare_views(frame, parts));
   GLOAM_TRY(build_draws(frame, parts));
+  for (std::size_t i = 0; i < frame.views.size(); ++i) note_surfaces(frame, i, parts);
   for (std::size_t i = 0; i < frame.views.size(); ++i) GLOAM_TRY(declare_view(frame, i, parts));
   resources.graph.set_view(0);
   GLOAM_TRY(resources.results.add_pass(resources.graph));
@@ -131,6 +145,9 @@ Status draw(RendererParts& parts, World& world, std::span<const ViewRequest> req
   const Drawing mark(parts.drawing);
   parts.modules.begin_frame(world, parts.schedule);
   frame = std::make_unique<Frame>(world, parts.knobs.settle(parts.modules, parts.pipeline_wait()), redraw);
+  // A view with knobs of its own may switch on what the others switch off.
+  if (std::ranges::all_of(requests, [](const ViewRequest& request) { return request.settings.knobs.empty(); }))
+    parts.modules.switch_off(world, frame->knobs, parts.schedule);
   for (const Module* module : parts.modules.demanded()) module->prepare_world(world, frame->knobs);
   GLOAM_TRY(run_systems(*frame, std::nullopt, parts));
   GLOAM_TRY(begin_views(*frame, requests, parts.modules.list()));

@@ -24,6 +24,17 @@ void ModuleSet::begin_frame(const World& world, Schedule& schedule) {
   }
 }
 
+void ModuleSet::switch_off(const World& world, const KnobRegistry& knobs, Schedule& schedule) {
+  for (std::size_t i = 0; i < modules_.size(); ++i) {
+    Demand& demand = uses_[i].demand;
+    if (!demand.needed) continue;
+    const std::string reason = modules_[i]->switched_off(world, knobs);
+    if (reason.empty()) continue;
+    demand = {false, demand.reason + ", but " + reason};
+    schedule.set_enabled(modules_[i]->name(), false);
+  }
+}
+
 std::vector<Module*> ModuleSet::demanded() const {
   std::vector<Module*> found;
   for (std::size_t i = 0; i < modules_.size(); ++i)
@@ -40,7 +51,13 @@ bool ModuleSet::any_needs(Question question, const World& world, const KnobRegis
 bool ModuleSet::may_draw(std::size_t index, const ViewQuery& query) const {
   const Module& module = *modules_[index];
   return std::ranges::find(query.without, module.name()) == query.without.end() && uses_[index].demand.needed &&
-         module.demand(query.world, &query.view).needed;
+         module.switched_off(query.world, query.knobs).empty() && module.demand(query.world, &query.view).needed;
+}
+
+bool ModuleSet::view_shows_surfaces(const ViewQuery& query) const {
+  for (std::size_t i = 0; i < modules_.size(); ++i)
+    if (modules_[i]->shows_surfaces(query.world, query.view) && may_draw(i, query)) return true;
+  return false;
 }
 
 bool ModuleSet::view_needs(Question question, const ViewQuery& query) const {
@@ -75,7 +92,9 @@ std::vector<Module*> ModuleSet::taking_part() const {
 std::string ModuleSet::reason_of_idle_visualizer(std::string_view name, const ViewQuery& query) const {
   const std::string_view stem = name.substr(0, name.find(':'));
   for (std::size_t i = 0; i < modules_.size(); ++i) {
-    const Demand demand = uses_[i].demand.needed ? modules_[i]->demand(query.world, &query.view) : uses_[i].demand;
+    Demand demand = uses_[i].demand.needed ? modules_[i]->demand(query.world, &query.view) : uses_[i].demand;
+    if (const std::string off = modules_[i]->switched_off(query.world, query.knobs); demand.needed && !off.empty())
+      demand = {false, off};
     if (uses_[i].in_view || demand.needed) continue;
     for (const VisualizerInfo& info : modules_[i]->visualizers())
       if (info.name == stem) return demand.reason;

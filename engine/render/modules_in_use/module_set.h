@@ -46,7 +46,9 @@ class ModuleSet {
 
   /// Begins a frame: asks each module whether the world needs it, and enables its systems if so.
   void begin_frame(const World& world, Schedule& schedule);
-  /// The answer of the last begin_frame.
+  /// After begin_frame: modules that are switched off with these knobs are not demanded.
+  void switch_off(const World& world, const KnobRegistry& knobs, Schedule& schedule);
+  /// The answer of the last begin_frame and switch_off.
   [[nodiscard]] const Demand& demand(std::size_t index) const { return uses_[index].demand; }
   /// The modules that the world demands, in list order.
   [[nodiscard]] std::vector<Module*> demanded() const;
@@ -55,6 +57,9 @@ class ModuleSet {
   /// Whether `question` is true for any module that may draw in the view: demanded by the world and the view, and not
   /// left out.
   [[nodiscard]] bool view_needs(Question question, const ViewQuery& query) const;
+
+  /// Whether a module that may draw in the view shows surfaces there (Module::shows_surfaces).
+  [[nodiscard]] bool view_shows_surfaces(const ViewQuery& query) const;
 
   /// Decides which modules take part in a view: those that may draw there and whose pipelines are ready, or that the
   /// frame waits for. Returns them in list order.

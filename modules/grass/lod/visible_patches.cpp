@@ -16,8 +16,13 @@ double distance_to(const Aabb& box, const dvec3& at) {
   return glm::length(glm::max(glm::max(dvec3(box.min) - at, at - dvec3(box.max)), dvec3(0.0)));
 }
 
+struct KeptPatches {
+  std::vector<VisiblePatch> patches;
+  std::uint32_t in_view = 0;
+};
+
 void cull_range(std::span<const GrassPatch> patches, JobRange range, const RenderView& view,
-                const PatchCulling& culling, std::vector<VisiblePatch>& kept) {
+                const PatchCulling& culling, KeptPatches& kept) {
   for (std::size_t i = range.begin; i < range.end; ++i) {
     const GrassPatch& patch = patches[i];
     if (patch.blades == 0) continue;
@@ -27,8 +32,13 @@ void cull_range(std::span<const GrassPatch> patches, JobRange range, const Rende
     Aabb box = reach_box(patch);
     box.min = vec3(dvec3(box.min) + origin);
     box.max = vec3(dvec3(box.max) + origin);
-    if (nearest_m >= static_cast<double>(culling.cast_distance_m) && !may_intersect(view.frustum, box)) continue;
-    kept.push_back({static_cast<std::uint32_t>(i), static_cast<float>(nearest_m)});
+    const bool in_view = may_intersect(view.frustum, box);
+    const bool casts =
+        !in_view && nearest_m < static_cast<double>(culling.cast_distance_m) &&
+        std::ranges::any_of(culling.lights, [&](const CastingLight& light) { return may_cast_into(view, box, light); });
+    if (!in_view && !casts) continue;
+    kept.in_view += in_view ? 1 : 0;
+    kept.patches.push_back({static_cast<std::uint32_t>(i), static_cast<float>(nearest_m)});
   }
 }
 
@@ -54,14 +64,38 @@ Aabb reach_box(const GrassPatch& patch) {
   return box;
 }
 
+bool may_cast_into(const RenderView& view, const Aabb& box, const CastingLight& light) {
+  const vec3 center = box.center();
+  const vec3 half = box.half_extent();
+  const vec3 lamp = vec3(light.position - view.position);
+  if (!light.directional) {
+    const vec3 beside = glm::max(glm::abs(lamp - center) - half, vec3(0.0f));
+    if (glm::dot(beside, beside) > light.range_m * light.range_m) return false;
+  }
+  // The shadow is the box, and every point p of it moved away from the light: by any multiple of the direction, or of
+  // p - lamp. It is outside of a plane if the box is and no such move leads inward.
+  for (const Plane& plane : view.frustum.planes) {
+    const float reach = glm::dot(glm::abs(plane.normal), half);
+    const float nearest = glm::dot(plane.normal, center) + reach;  // of the box, along the normal
+    if (!(nearest + plane.distance < 0.0f)) continue;
+    const float inward =
+        light.directional ? glm::dot(plane.normal, light.direction) : nearest - glm::dot(plane.normal, lamp);
+    if (inward <= 0.0f) return false;
+  }
+  return true;
+}
+
 VisiblePatches find_visible_patches(std::span<const GrassPatch> patches, const RenderView& view,
                                     const PatchCulling& culling, JobExecutor& jobs) {
-  std::vector<std::vector<VisiblePatch>> kept((patches.size() + kCullGrain - 1) / kCullGrain);
+  std::vector<KeptPatches> kept((patches.size() + kCullGrain - 1) / kCullGrain);
   jobs.parallel_for(patches.size(), kCullGrain,
                     [&](JobRange range) { cull_range(patches, range, view, culling, kept[range.ordinal]); });
   VisiblePatches visible;
-  for (const std::vector<VisiblePatch>& part : kept)
-    visible.patches.insert(visible.patches.end(), part.begin(), part.end());
+  visible.cast = culling.cast_distance_m > 0.0f && !culling.lights.empty();
+  for (const KeptPatches& part : kept) {
+    visible.patches.insert(visible.patches.end(), part.patches.begin(), part.patches.end());
+    visible.in_view += part.in_view;
+  }
   std::ranges::sort(visible.patches, [](const VisiblePatch& a, const VisiblePatch& b) {
     return a.nearest_m != b.nearest_m ? a.nearest_m < b.nearest_m : a.patch < b.patch;
   });

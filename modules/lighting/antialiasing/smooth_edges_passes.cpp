@@ -4,6 +4,7 @@
 
 #include "engine/render/declare/compute_pass.h"
 #include "engine/render/declare/draw_pass.h"
+#include "engine/render/seen_surfaces.h"
 #include "modules/lighting/outputs.h"
 #include "shaders/lighting/lighting_shared.h"
 #include "shaders/lighting/shaders.h"
@@ -41,7 +42,7 @@ ComputeProgram edges_program(bool rows) { return {shaders::lighting::edges_comp,
 
 bool antialiases(const FrameBuilder& frame) {
   return frame.knobs().value(kAntialiasing) != Antialiasing::off && frame.visualizer() == "none" &&
-         frame.view().purpose != ViewPurpose::reference;
+         sees_surfaces(frame.world(), frame.view()) && frame.view().purpose != ViewPurpose::reference;
 }
 
 AntialiasingWeights add_antialiasing_weights(FrameBuilder& frame, ImageRef shown) {
