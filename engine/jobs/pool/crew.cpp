@@ -169,7 +169,7 @@ std::unique_ptr<OwnThreads> Crew::scarce_threads(std::uint32_t helpers) {
   const std::uint32_t plenty = 2 * helpers + 8;
   auto started = std::make_unique<OwnThreads>(plenty);
   const bool scarce = started->count() < plenty;
-  started->keep(scarce ? helpers : 0);
+  started->keep(scarce ? std::min(helpers, started->count() / 2) : 0);  // other libraries need threads, too
   return scarce ? std::move(started) : nullptr;
 }
 

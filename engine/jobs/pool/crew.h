@@ -111,8 +111,8 @@ class Crew {
 
  private:
   struct Workers;
-  /// Threads of the crew itself, at most `helpers`, if the system does not give the process as many as oneTBB may
-  /// start; null if it does.
+  /// Threads of the crew itself, at most `helpers` and half of those that the system gives the process, if oneTBB might
+  /// start more than it gives; otherwise null.
   [[nodiscard]] static std::unique_ptr<OwnThreads> scarce_threads(std::uint32_t helpers);
   void call_helpers(std::uint32_t wanted);
 
