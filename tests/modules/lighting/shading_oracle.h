@@ -54,16 +54,16 @@ struct OracleArrival {
   dvec3 illuminance = dvec3(0.0);  ///< on a plane that faces the light
 };
 
-/// KHR_lights_punctual, with the window that ends a light at its range. Nothing blocks the light.
+/// KHR_lights_punctual, with the window that ends a light at its range. Without a range it has no end. Nothing blocks
+/// the light.
 [[nodiscard]] inline OracleArrival oracle_arrival(const dvec3& position, const OracleLight& l) {
   const dvec3 color = dvec3(l.light.color) * static_cast<double>(l.light.intensity);
   if (l.light.kind == LightKind::directional) return {-l.direction, color};
   const dvec3 offset = l.position - position;
   const double distance = glm::length(offset);
   const dvec3 to_light = offset / distance;
-  const double range = l.light.range_m > 0.0f ? static_cast<double>(l.light.range_m)
-                                              : std::sqrt(std::max({color.r, color.g, color.b}) / 0.01);
-  const double window = std::max(1.0 - std::pow(distance / range, 4.0), 0.0);
+  const double share = l.light.range_m > 0.0f ? distance / static_cast<double>(l.light.range_m) : 0.0;
+  const double window = std::max(1.0 - std::pow(share, 4.0), 0.0);
   double cone = 1.0;
   if (l.light.kind == LightKind::spot) {
     const double outer = std::cos(static_cast<double>(l.light.outer_angle));
