@@ -172,8 +172,8 @@ bool same_params(const ZBinParams& a, const ZBinParams& b) {
 }  // namespace
 
 float unseen_lux(const SceneEnvironment& environment) {
-  // Lights add up, and highlights are brighter than a white surface: a sixteenth of half of the darkest step.
-  constexpr double kShownAsNothing = 3e-5;
+  // Lights add up, and highlights are brighter than a white surface: a quarter of half of the darkest step.
+  constexpr double kShownAsNothing = 1.2e-4;  // 3.14 · 1.5e-4 / 4
   if (!environment.has_exposure) return kUnseenLux;
   const double exposure = std::exp2(-static_cast<double>(environment.exposure_ev100)) / 1.2;
   return static_cast<float>(std::clamp(kShownAsNothing / exposure, 1e-30, 1e30));
