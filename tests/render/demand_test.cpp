@@ -400,7 +400,7 @@ TEST_F(DemandFrames, frames_without_views_count_as_frames_without_demand) {
   EXPECT_EQ(seen("counting").pipelines, 1u) << "the world still calls for it";
 }
 
-TEST_F(DemandFrames, transient_images_are_counted_under_the_module_of_the_first_in_their_memory) {
+TEST_F(DemandFrames, transient_images_are_counted_under_the_module_of_the_largest_in_their_memory) {
   settle();
   const std::uint64_t before = seen("engine").bytes + seen("lighting").bytes;
   const Entity lamp = call_for("lights");

@@ -46,9 +46,10 @@ struct ResourceLife {
 /// Transient resources that use one piece of memory one after another, in order of their lifetimes.
 struct MemorySlot {
   std::vector<std::uint32_t> resources;
-  std::uint64_t bytes = 0;   ///< of the largest resource
-  std::uint32_t heap = 0;    ///< index into Plan::heaps
-  std::uint64_t offset = 0;  ///< bytes from the begin of the heap
+  std::uint64_t bytes = 0;    ///< of the largest resource
+  std::uint32_t largest = 0;  ///< of `resources`: the largest; the first one of equals
+  std::uint32_t heap = 0;     ///< index into Plan::heaps
+  std::uint64_t offset = 0;   ///< bytes from the begin of the heap
 };
 
 /// Memory of one kind for all slots that need this kind.

@@ -12,7 +12,7 @@ namespace {
 
 const gpu::MemoryHandle kNoMemory;
 
-/// The bytes of a plan's slots in one heap, by module of their first resource.
+/// The bytes of a plan's slots in one heap, by module of their largest resource, which the memory is there for.
 std::vector<gpu::ModuleMemory> shares_of(const Declaration& declaration, const Plan& plan, std::uint32_t heap) {
   std::vector<gpu::ModuleMemory> shares;
   const auto add = [&](const std::string& module, std::uint64_t bytes) {
@@ -24,10 +24,10 @@ std::vector<gpu::ModuleMemory> shares_of(const Declaration& declaration, const P
     }
   };
   for (const MemorySlot& slot : plan.image_slots) {
-    if (slot.heap == heap) add(declaration.resources[slot.resources.front()].image_desc.module, slot.bytes);
+    if (slot.heap == heap) add(declaration.resources[slot.largest].image_desc.module, slot.bytes);
   }
   for (const MemorySlot& slot : plan.buffer_slots) {
-    if (slot.heap == heap) add(declaration.resources[slot.resources.front()].buffer_desc.module, slot.bytes);
+    if (slot.heap == heap) add(declaration.resources[slot.largest].buffer_desc.module, slot.bytes);
   }
   return shares;
 }

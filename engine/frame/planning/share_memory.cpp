@@ -38,6 +38,7 @@ class MemorySharer {
       slots.emplace_back();
     }
     slots[slot].resources.push_back(resource);
+    if (needs->size > slots[slot].bytes) slots[slot].largest = resource;
     slots[slot].bytes = std::max(slots[slot].bytes, needs->size);
     plan_.lives[resource].slot = slot;
     plan_.unshared_bytes += needs->size;

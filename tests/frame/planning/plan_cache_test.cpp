@@ -73,6 +73,24 @@ TEST_F(PlanCacheTest, bytes_are_accounted_to_the_modules_of_the_current_plan) {
   EXPECT_EQ(bytes_of_module("engine"), (64u * 64 - 16 * 16) * 4);
 }
 
+TEST_F(PlanCacheTest, memory_that_modules_share_is_accounted_to_the_one_that_needs_most) {
+  // A small image of one module, and after it a large one of another, in the same memory.
+  for (const bool small_first : {true, false}) {
+    run_frame([small_first](FrameGraph& g) {
+      for (const bool small : {small_first, !small_first}) {
+        gpu::ImageDesc desc = image_desc(small ? "little" : "great", small ? 8 : 64);
+        desc.module = small ? "little" : "great";
+        PassBuilder pass = g.add_pass(desc.name, desc.module);
+        (void)pass.write(g.create_image(desc), Access::compute_write);
+        pass.keep();
+      }
+    });
+    EXPECT_EQ(graph.transient_bytes(), 64u * 64 * 4) << "they share";
+    EXPECT_EQ(bytes_of_module("great"), 64u * 64 * 4);
+    EXPECT_EQ(bytes_of_module("little"), 0u);
+  }
+}
+
 TEST_F(PlanCacheTest, a_plan_that_rests_gives_its_memory_back_but_stays_compiled) {
   run_image_frame(64);
   for (std::uint64_t i = 0; i < frame::PlanCache::kUsesBeforeMemoryIsFreed; ++i) run_image_frame(16);

@@ -42,8 +42,10 @@ class GrassSimulationHard : public KernelTest {
     c.box = 1;
     return c;
   }
-  /// Runs frames of `steps` steps; all knots must be sound after each, and equal to the twin's after the first.
-  void expect_sound_frames(GrassInput& input, std::uint32_t frames, std::uint32_t steps, double bound_m = 5e-5) {
+  /// Runs frames of `steps` steps; all knots must be sound after each, and those of `share` of the blades equal to the
+  /// twin's after the first.
+  void expect_sound_frames(GrassInput& input, std::uint32_t frames, std::uint32_t steps, double bound_m = 5e-5,
+                           double share = 1.0) {
     SimulateTwin twin(input);
     const SimulateKernel kernel(device());
     input.steps.frame_steps = steps;
@@ -51,7 +53,8 @@ class GrassSimulationHard : public KernelTest {
       if (f == 0) twin.advance(input.steps);
       kernel.advance(input, 1);
       if (f == 0) {
-        EXPECT_LT(twin.distance(input.knots), bound_m);
+        EXPECT_TRUE(std::isfinite(twin.distance(input.knots)));
+        EXPECT_GE(twin.share_within(input.knots, bound_m), share);
       }
       expect_sound(twin, input.knots);
       if (HasFailure()) return;
@@ -115,8 +118,8 @@ TEST_F(GrassSimulationHard, colliders_of_any_kind_leave_the_knots_sound) {
     GrassInput input = field(48, {0.0f, 0.1f, 0.5f}, vec3(2.0f, 0.0f, 0.0f));
     add_collider(input, cases[i]);
     add_collider(input, sphere(vec3(0.3f, 0.1f, 0.0f), vec3(0.4f, 0.1f, 0.2f), 0.3f));
-    // The twin takes another side of a box or sphere where rounding decides.
-    expect_sound_frames(input, 20, 4, std::numeric_limits<double>::infinity());
+    // The twin takes another side of a box or sphere where rounding decides, which is so for few blades.
+    expect_sound_frames(input, 20, 4, 5e-5, 0.9);
   }
 }
 
@@ -149,7 +152,7 @@ TEST_F(GrassSimulationHard, ten_thousand_steps_of_stiff_and_limp_blades_come_to_
 
 TEST_F(GrassSimulationHard, ten_thousand_steps_in_wind_stay_sound) {
   GrassInput input = field(16, {0.0f, 0.1f, 0.9f, 1.0f}, vec3(12.0f, 1.0f, -7.0f));
-  expect_sound_frames(input, static_cast<std::uint32_t>(scaled(100)), 100, std::numeric_limits<double>::infinity());
+  expect_sound_frames(input, static_cast<std::uint32_t>(scaled(100)), 100, 1e-3);
 }
 
 TEST_F(GrassSimulationHard, steep_ground_long_and_short_blades_stay_sound) {

@@ -180,6 +180,17 @@ class SimulateTwin {
       }
     return most;
   }
+  /// Share of the masters of which all knots are within this distance of the kernel's.
+  [[nodiscard]] double share_within(const KnotRows& knots, double bound_m) const {
+    std::size_t within = 0;
+    for (std::size_t i = 0; i < models.size(); ++i) {
+      bool all = true;
+      for (std::size_t k = 0; k < kGrassKnots; ++k)
+        all = all && glm::length(models[i].root + states[i].at[k] - dvec3(knots[knot_index(i, k)])) < bound_m;
+      within += all ? 1 : 0;
+    }
+    return static_cast<double>(within) / static_cast<double>(std::max<std::size_t>(models.size(), 1));
+  }
   [[nodiscard]] std::size_t knot_index(std::size_t master, std::size_t k) const {
     const std::uint32_t blade = input_.masters[master].blade;
     return (std::size_t{input_.patches[blade >> 8].first_place} + (blade & 0xFFu)) * kGrassKnots + k;
