@@ -18,9 +18,9 @@ class VectorWidths(ProgramCase):
     def environment(self, width):
         return {"LP_NATIVE_VECTOR_WIDTH": width, "MESA_SHADER_CACHE_DIR": self.mesa_cache.name}
 
-    def render(self, scene, width):
-        name = f"{scene}_{width}.png"
-        self.expect(0, "render", f"builtin:{scene}", *SMALL, "--device", "llvmpipe", "--out", name,
+    def render(self, scene, width, *options, ending="png"):
+        name = f"{scene}_{width}.{ending}"
+        self.expect(0, "render", f"builtin:{scene}", *SMALL, "--device", "llvmpipe", "--out", name, *options,
                     env=self.environment(width))
         return (self.folder / name).read_bytes()
 
@@ -34,6 +34,11 @@ class VectorWidths(ProgramCase):
         for scene in ("many_lights", "shadows", "closeups"):
             # 256 first: its compiled shaders must not be taken for those of 128.
             self.assertEqual(self.render(scene, "256"), self.render(scene, "128"), scene)
+
+    def test_grass_that_wind_has_moved_has_the_same_bits_at_128_as_at_256(self):
+        options = ("--camera", "near", "--frames", "8", "--set", "grass.density_scale=0.05")
+        moved = self.render("meadow_day", "256", *options, ending="exr")
+        self.assertEqual(moved, self.render("meadow_day", "128", *options, ending="exr"))
 
     def test_other_widths_are_refused_with_the_reason(self):
         for width in ("64", "512"):

@@ -295,11 +295,12 @@ class DemandOfAll : public test::DemandTest {
     up.settings.world_from_camera = test::look_at(dvec3(2.0, 3.0, 9.0), dvec3(2.0, 9.0, 9.5), 64, 40).world_from_camera;
     return up;
   }
-  [[nodiscard]] const ModuleState& state_of(std::string_view name) const {
-    for (const ModuleState& state : renderer_->report().modules)
+  [[nodiscard]] ModuleState state_of(std::string_view name) const {
+    const FrameReport report = renderer_->report();
+    for (const ModuleState& state : report.modules)
       if (state.name == name) return state;
     ADD_FAILURE() << "there is no module " << name;
-    return renderer_->report().modules.front();
+    return {};
   }
   [[nodiscard]] std::set<std::string> pass_names() const {
     std::set<std::string> names;

@@ -282,7 +282,7 @@ TEST_F(CloseupFrames, the_view_of_errors_judges_them_as_they_are_shaded) {
   for (const bool with : {false, true}) {
     set("closeups.max_pairs", with ? "8" : "0");
     const CloseupShot close = second_shot();
-    EXPECT_EQ(close.views.pairs.size(), with ? 1u : 0u);
+    EXPECT_EQ(has_closeup_pass(), with);
     const SeenLight drawn = seen(close.lists, lamp);
     world.set_resource(traced);
     settings.visualizer = "error";
