@@ -15,6 +15,7 @@ struct DepthOfField {
   float focus_m = 0.0f;
   float f_number = 2.8f;
   Bokeh bokeh = Bokeh::round;
+  float metres_per_unit = 1.0f;  ///< of focus_m: what the sensor's height is compared with; > 0
 };
 
 inline constexpr float kLeastFNumber = 0.01f;

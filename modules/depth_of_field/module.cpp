@@ -9,6 +9,7 @@
 
 #include "engine/ecs/view.h"
 #include "engine/scene/keys/table.h"
+#include "engine/scene/units.h"
 #include "modules/depth_of_field/components.h"
 #include "modules/depth_of_field/debug/coc_view.h"
 #include "modules/depth_of_field/dof_passes.h"
@@ -49,12 +50,21 @@ class DepthOfFieldModule final : public Module {
                       std::move(meaning));
     };
     registry.add(number_key(line("gloam.dof.focus", "", "m", "focus distance; if set, the camera has depth of field"),
-                            1e-3, 1e6, &DepthOfField::focus_m));
+                            1e-9, 1e12, &DepthOfField::focus_m));
     registry.add(
         number_key(line("gloam.dof.f_number", "2.8", "", "focal length divided by the diameter of the aperture"), 0.1,
                    1000, &DepthOfField::f_number));
     registry.add(choice_key(line("gloam.dof.bokeh", "round", "", "shape of the aperture"), {"round", "hexagonal"},
                             Bokeh::round, &DepthOfField::bokeh));
+    registry.add_finish("depth_of_field", [](World& world) -> Status {
+      const double unit_m = metres_per_unit(world);
+      if (unit_m == 1.0) return {};
+      world.view<DepthOfField>().each([&](DepthOfField& values) {
+        values.focus_m = static_cast<float>(values.focus_m / unit_m);
+        values.metres_per_unit = static_cast<float>(unit_m);
+      });
+      return {};
+    });
   }
   void knobs(KnobRegistry& registry) const override { add_dof_knobs(registry); }
   [[nodiscard]] std::vector<ReferenceInfo> references() const override {

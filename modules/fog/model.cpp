@@ -71,7 +71,7 @@ std::vector<double> fog_reference(std::span<const float> lit, std::span<const do
   const std::vector<double> glow = blur_lines(rows, width, 1, height, width, sigma);
   std::vector<double> fogged(4 * pixels, 1.0);
   for (std::size_t i = 0; i < pixels; ++i) {
-    const double path = std::min(distance_m[i], static_cast<double>(kFogSkyDistance));
+    const double path = std::min(distance_m[i], static_cast<double>(fog.sky_distance_m));
     const double transmitted = std::exp(-static_cast<double>(fog.density) * path);
     for (std::size_t c = 0; c < 3; ++c) {
       const double scattered =

@@ -14,9 +14,6 @@ namespace gloam {
 
 /// Share of the scattered light that nearly keeps its direction and shows as glow.
 inline constexpr float kFogForwardShare = 0.5f;
-/// Path length through the fog for sky pixels, metres. Fog lies near the ground, so the sky is dimmed but still
-/// visible.
-inline constexpr float kFogSkyDistance = 200.0f;
 /// Standard deviation of the glow as a share of the picture's height.
 inline constexpr float kFogGlowSigma = 0.02f;
 

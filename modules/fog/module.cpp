@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/scene/keys/table.h"
+#include "engine/scene/units.h"
 #include "modules/fog/components.h"
 #include "modules/fog/fog_passes.h"
 #include "modules/fog/knobs.h"
@@ -15,7 +16,7 @@
 namespace gloam {
 namespace {
 
-HomogeneousFog homogeneous(const Fog& fog) { return {fog.density, fog.color, kFogSkyDistance}; }
+HomogeneousFog homogeneous(const Fog& fog) { return {fog.density, fog.color, fog.sky_distance_m}; }
 
 class FogModule final : public Module {
  public:
@@ -33,10 +34,17 @@ class FogModule final : public Module {
     };
     registry.add(
         number_key(line("gloam.fog.density", "0", "1/m", "density of homogeneous fog; at most one node per scene"), 0,
-                   1e3, &Fog::density));
+                   1e9, &Fog::density));
     registry.add(vec3_key(line("gloam.fog.color", "[0, 0, 0]", "cd/m²", "in-scattered radiance of the fog"), 0, 1e6,
                           &Fog::color));
-    registry.add_finish("fog", [](World& world) { return at_most_one(world.view<const Fog>().size(), "gloam.fog"); });
+    registry.add_finish("fog", [](World& world) {
+      const auto unit_m = static_cast<float>(metres_per_unit(world));
+      world.view<Fog>().each([&](Fog& fog) {
+        fog.density *= unit_m;
+        fog.sky_distance_m /= unit_m;
+      });
+      return at_most_one(world.view<const Fog>().size(), "gloam.fog");
+    });
   }
 
   void knobs(KnobRegistry& registry) const override { add_knobs(registry, name(), kFogDivisor, kFogRadius); }

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/ecs/view.h"
 #include "engine/scene/keys/table.h"
+#include "engine/scene/units.h"
 #include "modules/lights/components.h"
 
 namespace gloam {
@@ -152,6 +154,15 @@ void add_light_keys(KeyRegistry& registry) {
                                    "diameter of the emitter of a point or spot light; 0: hard shadows"),
                           0, 1e4, &Light::width_m));
   registry.add(angle_key());
+  // Candela are per square metre of distance.
+  registry.add_finish("lights", [](World& world) -> Status {
+    const double unit_m = metres_per_unit(world);
+    world.view<Light>().each([&](Light& light) {
+      if (light.kind != LightKind::directional)
+        light.intensity = static_cast<float>(light.intensity / (unit_m * unit_m));
+    });
+    return {};
+  });
   registry.add(cookie_key());
 }
 

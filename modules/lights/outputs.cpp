@@ -37,7 +37,7 @@ double local_illuminance_at(const VisibleLights& visible, std::size_t light, con
   GLOAM_ASSERT(light < visible.block.local_count, "no such local light");
   const shaders::LocalLight& l = visible.block.local[light];
   const dvec3 offset = dvec3(l.position) - dvec3(point);
-  const double d2 = std::max(glm::dot(offset, offset), 1e-6);
+  const double d2 = std::max(glm::dot(offset, offset), 1e-30);
   const dvec3 to_light = offset / std::sqrt(d2);
   const double window = range_window(d2 * static_cast<double>(l.inverse_range_squared));
   const double cone = std::clamp(

@@ -161,7 +161,7 @@ ZBinParams z_bin_params(const VisibleLights& visible, const ZBinSettings& settin
   for (const LightDepth& depth : visible.depths) params.far_m = std::max(params.far_m, depth.farthest);
   if (settings.farthest_opaque_m > 0.0f) params.far_m = std::min(params.far_m, settings.farthest_opaque_m);
   // Keeps far_m above near_m by a margin, so that the scale is finite.
-  params.far_m = std::max(params.far_m, near_m + std::max(1e-3f, std::abs(near_m) * 1e-3f));
+  params.far_m = std::max(params.far_m, near_m + std::max(1e-30f, std::abs(near_m) * 1e-3f));
   return params;
 }
 

@@ -21,29 +21,31 @@
 #include "modules/reflections/passes/uploads.h"
 #include "modules/reflections/probes/rows.h"
 #include "modules/reflections/proxies/rows.h"
+#include "modules/reflections/scene_unit.h"
 
 namespace gloam {
 namespace {
 
-constexpr float kThickness_m = 0.35f;  // of things that screen space sees from the front only
-constexpr float kLobeWidth = 3.0f;     // radians: standard deviation of a lobe per square of the roughness
-constexpr float kLeastAcross = 0.1f;   // narrowest blur along rows, per pixel roughness
-constexpr float kAcross = 0.5f;        // the same with one roughness for all
+constexpr float kThickness = 0.35f;   // of things that screen space sees from the front only, in scene_unit()s
+constexpr float kLobeWidth = 3.0f;    // radians: standard deviation of a lobe per square of the roughness
+constexpr float kLeastAcross = 0.1f;  // narrowest blur along rows, per pixel roughness
+constexpr float kAcross = 0.5f;       // the same with one roughness for all
 
 /// Side of a texel of the reflection images at view depth 1 m (orthographic: everywhere), metres.
 float texel_size(const RenderView& view, std::uint32_t scale) {
   return 2.0f / (std::abs(view.clip_from_view[1][1]) * static_cast<float>(view.height)) * static_cast<float>(scale);
 }
 
-shaders::ReflectionConstants constants_of(const RenderView& view, const ReflectionKnobs& knobs) {
+shaders::ReflectionConstants constants_of(const RenderView& view, const ReflectionKnobs& knobs, float unit_m) {
   shaders::ReflectionConstants c{};
   c.scale = knobs.scale();
   c.size = (uvec2(view.width, view.height) + c.scale - 1u) / c.scale;
   c.k1 = knobs.k1;
-  c.k2 = knobs.k2;
+  c.unit_m = unit_m;
+  c.k2 = knobs.k2 / unit_m;
   c.refine = knobs.refine;
-  c.reach_m = knobs.reach_m;
-  c.thickness_m = kThickness_m;
+  c.reach_m = knobs.reach_m * unit_m;
+  c.thickness_m = kThickness * unit_m;
   c.pixel_roughness = knobs.pixel_roughness ? 1 : 0;
   c.blur_radius = std::clamp(c.size.y / 8, 2u, std::uint32_t{GLOAM_MOST_BLUR_RADIUS});
   c.blur_scale =
@@ -122,7 +124,7 @@ void announce_reflections(FrameBuilder& frame) {
   plan.probes = probe_rows(world, view, captures);
   plan.no_specular = change != nullptr && *change == ReflectionOverride::no_specular;
   if (!plan.mirror && plan.probes.empty() && !plan.no_specular && plan.traced == nullptr) return;
-  plan.constants = constants_of(view, knobs);
+  plan.constants = constants_of(view, knobs, static_cast<float>(scene_unit(frame.world())));
   if (knobs.proxies)
     plan.proxies = proxy_rows(world, view, world.resource<ProxySet>(), world.view_resource<ProxyTiles>(view.id),
                               captures, knobs.naive);

@@ -30,11 +30,15 @@ struct ShadowTexelGrid {
   dvec3 anchor = dvec3(0.0);
 };
 
+/// Least radius of a lamp's ball for is_bulb(), as a share of the lamp's range.
+inline constexpr double kLeastBulb = 1.0 / 200.0;
+
 /// Whether an emissive mesh is part of a lamp: the glass or the flame that shines, not something in its way. A bulb
 /// does not cast into the maps of its light. It touches the emitter's ball, or almost, and is not much larger. min,
 /// max: bounds of the mesh, in the space of `light`. half_diagonal_m: half the diagonal of the mesh's own box; 0 for a
-/// mesh that is not emissive. emitter_radius_m: below 0: the light is no lamp.
-[[nodiscard]] bool is_bulb(const dvec3& light, double emitter_radius_m, const dvec3& min, const dvec3& max,
+/// mesh that is not emissive. bulb_radius_m: radius of the emitter,
+/// at least kLeastBulb of its range; below 0: the light is no lamp.
+[[nodiscard]] bool is_bulb(const dvec3& light, double bulb_radius_m, const dvec3& min, const dvec3& max,
                            double half_diagonal_m);
 
 }  // namespace gloam

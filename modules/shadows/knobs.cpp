@@ -47,6 +47,7 @@ ShadowSettings shadow_settings(const ShadowKnobs& knobs) {
   settings.enabled = knobs.enabled;
   settings.atlas_size = knobs.atlas_size;
   settings.texels_per_pixel = knobs.texels_per_pixel;
+  settings.d16 = knobs.d16;
   return settings;
 }
 

@@ -169,6 +169,7 @@ struct ShadowKnobs {
 struct ShadowSettings {
   bool enabled = true;              ///< shadows.mode is not off
   std::uint32_t atlas_size = 4096;  ///< texels, a power of two
+  bool d16 = false;                 ///< maps have 16 bits
   std::uint32_t cascades = 4;       ///< cascades of a directional light, at most GLOAM_MAX_CASCADES
   float kernel_rim = 0.125f;        ///< width of a rim as a share of the half extent inside it; see rim_share()
   float texels_per_pixel = 3.0f;    ///< wanted shadow-map texels along a pixel's side; lowered until the maps fit

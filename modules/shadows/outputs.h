@@ -78,12 +78,16 @@ struct ShadowFace {
   vec3 forward = vec3(0.0f, 0.0f, -1.0f);
   float tan_half = 1.0f;       ///< tangent of half the field of view, rim included; 0: the face is orthographic
   float half_extent_m = 0.0f;  ///< orthographic: half the width of the box, rim included
-  float near_m = 0.05f;        ///< perspective: depth of the near plane; orthographic: 0
+  float near_m = 0.05f;        ///< perspective: distance along `forward` with depth 1 in the map; orthographic: 0
+  float clip_share = 1.0f;  ///< perspective: the near plane as a share of near_m, ≤ 1; what lies between has depth 1
   float far_m = 0.0f;  ///< perspective: range of the light, a distance from `origin`; orthographic: depth of the box
-  float emitter_radius_m = -1.0f;  ///< local light: ≥ 0; directional: −1
-  AtlasSquare square;              ///< place in the atlas
-  float importance = 0.0f;         ///< ≥ 0; when the atlas is full, the least important faces halve first
-  std::uint32_t view = 0;          ///< as FaceKey::view
+  float bulb_radius_m = -1.0f;  ///< local light: bulb_radius(); directional: −1
+  AtlasSquare square;           ///< place in the atlas
+  float importance = 0.0f;      ///< ≥ 0; when the atlas is full, the least important faces halve first
+  std::uint32_t view = 0;       ///< as FaceKey::view
+
+  /// Depth of the near plane.
+  [[nodiscard]] float clip_m() const { return near_m * clip_share; }
 };
 
 /// A rectangle of a face's texels: x from the left edge, y from the upper edge. `end` is one past the last texel.
@@ -106,9 +110,10 @@ struct TexelRect {
 [[nodiscard]] TexelRect covered_texels(const ShadowFace& face, const dvec3& low, const dvec3& high);
 
 /// Whether casters in a world-space box may block light in this face. Conservative: false only if they certainly do
-/// not. In a perspective face, casters nearer than near_m or beyond far_m block nothing. In an orthographic face,
-/// casters beyond far_m block nothing, but casters in front of the near side block. min, max: corners of the box in
-/// metres. True if min is above max on any axis or a bound is NaN, because the position is then unknown.
+/// not. In a perspective face, casters nearer than the near plane (clip_m()) or beyond far_m block nothing. In an
+/// orthographic face, casters beyond far_m block nothing, but casters in front of the near side block. min, max:
+/// corners of the box in metres. True if min is above max on any axis or a bound is NaN, because the position is then
+/// unknown.
 [[nodiscard]] bool face_may_see(const ShadowFace& face, const dvec3& min, const dvec3& max);
 
 /// The final lists of a view: which lights reach each shadow tile, and how much of each light its pixels see. Opaque

@@ -24,7 +24,8 @@ struct TwinLight {
   double range2 = 0.0;                 ///< squared range in m²
   double spot_scale = 0.0;
   double spot_offset = 1.0;
-  double radius = 0.0;  ///< of the emitter's disc in metres; directional: at distance 1
+  double radius = 0.0;         ///< of the emitter's disc in metres; directional: at distance 1
+  double bulb_radius_m = 0.0;  ///< see is_bulb()
   bool casts = true;
   std::uint32_t bulbs = 0;  ///< index in TwinLights::bulbs
 };
@@ -40,6 +41,13 @@ struct TwinLights {
 /// Illuminance, in lux, at a point on a plane that faces the light, if nothing blocks it. to_light: set to the unit
 /// direction to the light.
 [[nodiscard]] dvec3 illuminance_of(const TwinLight& light, const dvec3& point, dvec3& to_light);
+
+/// Rounding error of a ray's start and of where it meets a surface, as a share of the coordinates involved.
+inline constexpr double kRayRounding = 2e-6;
+
+/// End of a ray to a light, as a share of its length: short of the light by the rounding. distance: from the start to
+/// the light; from_origin: from the tracer's origin to the start.
+[[nodiscard]] float ray_end(double distance, double from_origin);
 
 /// The segment to a point of the emitter, for SceneTracer::occluded(). start: where the ray begins. x, y: two numbers
 /// in [0, 1) that choose the point. Returns false if the light is so near that nothing can block it.

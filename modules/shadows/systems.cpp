@@ -3,10 +3,12 @@
 #include "modules/shadows/systems.h"
 
 #include <bit>
+#include <cmath>
 #include <memory>
 #include <vector>
 
 #include "engine/core/hash.h"
+#include "engine/math/world_box.h"
 #include "modules/shadows/atlas/find_faces.h"
 
 namespace gloam {
@@ -37,7 +39,13 @@ CasterBounds bounds_of(std::span<const MeshInstance> instances, std::span<const 
   CasterBounds bounds;
   for (std::size_t i = 0; i < instances.size(); ++i) {
     if (instances[i].skin != kNone) continue;
-    if (const Aabb* box = box_of(assets, instances[i])) grow(bounds, *box, transforms[i].matrix);
+    const Aabb* box = box_of(assets, instances[i]);
+    if (box == nullptr) continue;
+    grow(bounds, *box, transforms[i].matrix);
+    const double size = half_diagonal(*box, transforms[i].matrix);
+    if (!(size > 0.0) || !std::isfinite(size)) continue;
+    bounds.log2_sizes += std::log2(size);
+    ++bounds.sized;
   }
   return bounds;
 }
@@ -87,7 +95,11 @@ void shadow_bounds_system(ViewResource<const VisibleLights> visible,
         found[ordinal] = bounds_of(instances, transforms, *assets);
       });
   CasterBounds all;
-  for (const CasterBounds& bounds : found) all.grow(bounds.min, bounds.max);
+  for (const CasterBounds& bounds : found) {
+    all.grow(bounds.min, bounds.max);
+    all.log2_sizes += bounds.log2_sizes;
+    all.sized += bounds.sized;
+  }
   for (const JointMatrices::Range& range : joints->ranges) {
     const auto* instance = meshes.try_get<MeshInstance>(range.instance);
     const Aabb* box = instance == nullptr ? nullptr : box_of(*assets, *instance);

@@ -129,13 +129,13 @@ bool subject_is_aside(LightOfPair light, uvec2 tile) {
     outside.zw = bvec2(outside.z && at.x > closeup.size * at.w, outside.w && at.y > closeup.size * at.w);
     least_w = min(least_w, at.w);
     most_w = max(most_w, at.w);
-    vec3 place = at.xyz / max(at.w, 1e-9);
+    vec3 place = at.xyz / max(at.w, 1e-30);
     low = min(low, place.xy);
     high = max(high, place.xy);
     farthest = min(farthest, place.z);
   }
   if (any(outside) || most_w < closeup.near_m) return true;
-  if (least_w < 1e-3) return false;
+  if (least_w <= 0.02 * most_w) return false;  // too near to the light's plane for useful bounds
   // Two steps: the nearest depth in a wide search region gives a smaller region.
   float nearest = 1.0;
   for (int step = 0; step < 2; ++step) {

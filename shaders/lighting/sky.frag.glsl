@@ -16,7 +16,7 @@ layout(location = 0) out vec4 out_light;
 layout(location = 1) out vec4 out_diffuse_light;
 
 void main() {
-  vec3 position = relative_position(view, gl_FragCoord.xy - 0.5, 1e-9);
+  vec3 position = relative_position(view, gl_FragCoord.xy - 0.5, 0.5);
   vec3 to_eye = normalize(to_viewer(view, position));
   out_light = vec4(min(sky_radiance(environment, -to_eye), vec3(65504.0)), 1.0);
   if (kDiffuseLight != 0u) out_diffuse_light = vec4(0.0, 0.0, 0.0, 1.0);

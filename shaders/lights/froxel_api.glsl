@@ -128,7 +128,7 @@ float point_slack(vec3 point) { return kPointEpsilon * dot(abs(point), vec3(1.0)
 bool in_range(LocalLight light, vec3 point, float slack) {
   vec3 offset = light.position - point;
   vec3 least = max(abs(offset) - slack, vec3(0.0));
-  float inverse_distance = inversesqrt(max(dot(offset, offset), 1e-6));
+  float inverse_distance = inversesqrt(max(dot(offset, offset), 1e-30));
   float cosine = kPointEpsilon + (2.0 * slack - dot(offset, light.direction)) * inverse_distance;
   float inside = 1.0 + 2.0 * kPointEpsilon - dot(least, least) * light.inverse_range_squared;
   return min(inside, cosine * light.spot_scale + light.spot_offset) > 0.0;

@@ -21,12 +21,12 @@ float range_window(float squared_share) { return clamp(1.0 - squared_share * squ
 // unit direction to the light. Inverse square, multiplied by the window of the range and by the spot's falloff.
 vec3 local_illuminance(LocalLight light, vec3 point, out vec3 to_light) {
   vec3 offset = light.position - point;
-  float d2 = max(dot(offset, offset), 1e-6);
+  float d2 = max(dot(offset, offset), 1e-30);
   float inverse_distance = inversesqrt(d2);
   to_light = offset * inverse_distance;
   float window = range_window(d2 * light.inverse_range_squared);
   float cone = clamp(dot(-to_light, light.direction) * light.spot_scale + light.spot_offset, 0.0, 1.0);
-  return light.color * (window * cone * cone * inverse_distance * inverse_distance);
+  return min(light.color * (window * cone * cone * inverse_distance * inverse_distance), vec3(1e30));
 }
 
 #endif

@@ -3,8 +3,9 @@
 #ifndef GLOAM_SHADERS_REFLECTIONS_HIT_DISTANCE_API_GLSL
 #define GLOAM_SHADERS_REFLECTIONS_HIT_DISTANCE_API_GLSL
 
-// Distances along a reflected ray from the surface to the hit, in two channels of an 8-bit unorm image: centimetres,
-// the low byte in x, the high byte in y. Fetch them without filtering.
+// Distances along a reflected ray from the surface to the hit, in two channels of an 8-bit unorm image: hundredths of
+// ReflectionConstants::unit_m (centimetres where that is 1), the low byte in x, the high byte in y. Fetch them without
+// filtering. Arguments and results below are in that unit.
 
 const float kMostHitCentimetres = 65535.0;
 

@@ -20,7 +20,7 @@ struct MirrorSurface {
 
 // Sets position and direction from pixel and depth.
 void place_mirror_surface(inout MirrorSurface s) {
-  s.position = relative_position(view, vec2(s.pixel), max(s.depth, 1e-9));
+  s.position = relative_position(view, vec2(s.pixel), max(s.depth, 1e-30));
   vec3 seen = -normalize(to_viewer(view, s.position));
   s.direction = vec3(seen.x, -seen.y, seen.z);
 }

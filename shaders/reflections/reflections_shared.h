@@ -30,6 +30,7 @@ struct ReflectionConstants {
   float light_scale;    // 1: proxies and probes follow the current lights; 0: as captured
   uint centered;        // 1: a texel shows the middle of its block; 0: the block's first candidate
   uint changed_lights;  // lights that differ from their state at capture
+  float unit_m;         // scene_unit(): hit distances are stored in hundredths of it
 };
 
 /// Arguments of an indirect dispatch over the listed tiles: GLOAM_TILE_ROW workgroups wide, one per tile, and as high

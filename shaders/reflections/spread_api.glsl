@@ -20,7 +20,7 @@ float screen_distance(MirrorSurface s, float distance_m) {
 // angle covers an angle in the picture that is proportional to it.
 float mirrored_share(MirrorSurface s, float distance_m) {
   float eye_m = view.orthographic != 0u ? view_depth(view, s.position) : length(s.position);
-  return clamp(distance_m / max(distance_m + eye_m, 1e-6), 0.0, 1.0);
+  return clamp(distance_m / max(distance_m + eye_m, 1e-30), 0.0, 1.0);
 }
 
 #endif

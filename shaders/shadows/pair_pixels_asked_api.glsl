@@ -10,7 +10,7 @@
 PixelOfPair pixel_of_pair(LightOfPair light, uvec2 pixel) {
   ivec2 at = ivec2(min(pixel, view.size - 1u));
   float depth = texelFetch(depth_image, at, 0).r;
-  vec3 position = relative_position(view, vec2(at), max(depth, 1e-9));
+  vec3 position = relative_position(view, vec2(at), max(depth, 1e-30));
   uvec2 normals = texelFetch(normal_image, at, 0).xy;
   bool subsurface = texelFetch(base_color_image, at, 0).a > 0.5;
   PixelOfPair p;

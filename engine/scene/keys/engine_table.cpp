@@ -5,6 +5,7 @@
 #include "engine/scene/assets.h"
 #include "engine/scene/keys/registry.h"
 #include "engine/scene/resources.h"
+#include "engine/scene/units.h"
 
 namespace gloam {
 namespace {
@@ -43,6 +44,24 @@ SceneKey exposure_key() {
     auto& environment = target.world.resource<SceneEnvironment>();
     environment.has_exposure = true;
     environment.exposure_ev100 = static_cast<float>(std::get<double>(value));
+    return {};
+  };
+  return key;
+}
+
+SceneKey scale_key() {
+  SceneKey key;
+  key.module = "engine";
+  key.on = KeyElement::scene;
+  key.name = "gloam.scale";
+  key.type = KeyType::number;
+  key.min = 1e-9;
+  key.max = 1e9;
+  key.unit = "m";
+  key.default_text = "1";
+  key.meaning = "metres per unit of length, for physics: falloff of lights, fog, wind, gravity, lenses";
+  key.set = [](KeyTarget& target, const KeyValue& value) -> Status {
+    target.world.set_resource(SceneUnits{std::get<double>(value)});
     return {};
   };
   return key;
@@ -89,6 +108,7 @@ void add_engine_keys(KeyRegistry& registry) {
   registry.add(sky_key("gloam.sky.horizon", "radiance of the sky at the horizon", &SceneEnvironment::sky_horizon));
   registry.add(sky_key("gloam.sky.ground", "radiance from below the horizon", &SceneEnvironment::sky_ground));
   registry.add(exposure_key());
+  registry.add(scale_key());
   registry.add(reflectivity_key());
   registry.add(subsurface_key());
 }

@@ -8,15 +8,18 @@
 #include <limits>
 
 #include "modules/lights/outputs.h"
+#include "modules/shadows/components.h"
 
 namespace gloam {
 namespace {
 
-constexpr double kNearestMeter = 0.05;  // standard maps leave out nearer blockers, too
+constexpr double kNearestShare = 0x1p-44;  // least near plane as a share of the light's range, as in standard maps
 constexpr double kWidestTangent = 2.0;
 constexpr double kConeRim = 0.125;  // share of the half extent, read by kernels; equals ShadowSettings::kernel_rim
 constexpr double kRimTexels = 2.1;  // two, plus a margin for rounding in floats
 constexpr double kRounded = 1e-6;   // relative margin for rounding in floats
+constexpr double kLeastBox =
+    1e-4;  // least half width and depth of a directional light's box, as a share of its surroundings
 constexpr std::uint32_t kSmallestMap = 64;
 
 /// Bounds of a box along a map's axes, relative to an origin.
@@ -57,7 +60,7 @@ double subject_tangent(const CloseupAxes& axes, const WorldBox& box, const Close
   double widest = 0.0;
   for (int c = 0; c < 8; ++c) {
     const dvec3 at = along(axes, corner_of(box, c) - light.position);
-    if (!(at.z > light.emitter_radius_m * (1.0 + kRounded) + 1e-9)) return std::numeric_limits<double>::infinity();
+    if (!(at.z > light.emitter_radius_m * (1.0 + kRounded))) return std::numeric_limits<double>::infinity();
     widest = std::max({widest, widest_tangent(at.x, at.z, light.emitter_radius_m),
                        widest_tangent(at.y, at.z, light.emitter_radius_m)});
   }
@@ -97,9 +100,9 @@ std::optional<CloseupFrustum> local_frustum(const CloseupLight& light, const Wor
   frustum.face.kind = LightKind::spot;
   frustum.face.origin = light.position;
   frustum.face.tan_half = static_cast<float>(outer);
-  frustum.face.near_m = static_cast<float>(std::max(kNearestMeter, extent.low.z * (1.0 - kRounded)));
+  frustum.face.near_m = static_cast<float>(std::max(kNearestShare * light.range_m, extent.low.z * (1.0 - kRounded)));
   frustum.face.far_m = static_cast<float>(light.range_m);
-  frustum.face.emitter_radius_m = static_cast<float>(light.emitter_radius_m);
+  frustum.face.bulb_radius_m = static_cast<float>(std::max(light.emitter_radius_m, kLeastBulb * light.range_m));
   frustum.tan_inner = static_cast<float>(inner);
   if (!(extent.high.z > frustum.face.near_m) || !(frustum.face.near_m < frustum.face.far_m)) return std::nullopt;
   return frustum;
@@ -112,8 +115,9 @@ std::optional<CloseupFrustum> directional_frustum(const CloseupLight& light, con
   const AlongAxes extent = along(axes, subject, middle);
   double far = extent.high.z;
   if (receivers.known()) far = std::max(far, along(axes, receivers, middle).high.z);
-  const double depth = far - extent.low.z;
-  const double half = std::max({extent.high.x, -extent.low.x, extent.high.y, -extent.low.y, 1e-3});
+  const double wide = std::max({extent.high.x, -extent.low.x, extent.high.y, -extent.low.y});
+  const double least = std::max(kLeastBox * std::max(wide, far - extent.low.z), 1e-30);
+  const double depth = std::max(far - extent.low.z, least), half = std::max(wide, least);
   CloseupFrustum frustum;
   frustum.face = looking_along(axes, size);
   frustum.face.kind = LightKind::directional;
@@ -121,7 +125,7 @@ std::optional<CloseupFrustum> directional_frustum(const CloseupLight& light, con
   frustum.face.origin = middle + dvec3(axes.forward) * (extent.low.z - slack);
   frustum.face.tan_half = 0.0f;
   frustum.face.near_m = 0.0f;
-  frustum.face.far_m = static_cast<float>(std::max(depth + 2.0 * slack, 1e-3));
+  frustum.face.far_m = static_cast<float>(depth + 2.0 * slack);
   frustum.face.half_extent_m = static_cast<float>((half + light.spread * depth + slack) / inner_share(size));
   const bool finite = std::isfinite(frustum.face.far_m) && std::isfinite(frustum.face.half_extent_m);
   return finite ? std::optional(frustum) : std::nullopt;

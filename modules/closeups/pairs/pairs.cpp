@@ -13,8 +13,6 @@
 namespace gloam {
 namespace {
 
-constexpr float kLeastRange = 0.05f;  // metres: lights with a range up to this have no shadow maps
-
 /// A shadow-casting light and, if local, the sphere it can light.
 struct CastingLight {
   Entity entity;
@@ -55,7 +53,6 @@ std::vector<CastingLight> casting_lights(const PairLights& lights) {
     CastingLight to{entity, light.kind == LightKind::directional};
     if (!to.directional) {
       const float range = effective_range(light);
-      if (!(range > kLeastRange)) return;
       const LightBounds reach = bounds != nullptr ? *bounds : first_bounds(light, transform.matrix, range);
       to.center = reach.center;
       to.radius_m = static_cast<double>(reach.radius_m);

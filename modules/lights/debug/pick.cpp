@@ -35,7 +35,7 @@ std::vector<std::uint32_t> words_of(const Captures& copies, std::string_view nam
 /// Whether a light contributes at a camera-relative point. Mirrors local_illuminance in lights_api.glsl.
 bool reaches(const shaders::LocalLight& light, const dvec3& point) {
   const dvec3 offset = dvec3(light.position) - point;
-  const double d2 = std::max(glm::dot(offset, offset), 1e-6);
+  const double d2 = std::max(glm::dot(offset, offset), 1e-30);
   const double cosine = glm::dot(-offset, dvec3(light.direction)) / std::sqrt(d2);
   return d2 * static_cast<double>(light.inverse_range_squared) < 1.0 &&
          cosine * static_cast<double>(light.spot_scale) + static_cast<double>(light.spot_offset) > 0.0;

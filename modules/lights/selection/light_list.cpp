@@ -10,8 +10,8 @@
 namespace gloam {
 namespace {
 
-constexpr float kLeastRange = 1e-3f;  // metres
-constexpr float kMostRange = 1e9f;    // metres: its square fits a float
+constexpr float kLeastRange = 1e-15f;  // its square and the inverse of that fit a float
+constexpr float kMostRange = 1e9f;     // metres: its square fits a float
 constexpr float kHalfPi = kPi * 0.5f;
 
 float brightness(const Light& light) {

@@ -7,11 +7,12 @@
 #include <numbers>
 
 #include "modules/reflections/bake/capture_view.h"
+#include "modules/reflections/scene_unit.h"
 
 namespace gloam {
 namespace {
 
-constexpr float kProbeNear = 0.05f;  // metres
+constexpr double kProbeNear = 0.05;  // scene_unit()s
 
 /// A point of a cube: a face and the position on it, −1…1 to the right and up.
 struct CubePoint {
@@ -145,7 +146,7 @@ Result<std::array<CapturedPicture, 6>> draw_cube_faces(Renderer& renderer, World
     settings = capture_view(face);
     settings.width = settings.height = side;
     settings.camera.fov_y = std::numbers::pi_v<float> / 2.0f;
-    settings.camera.near_m = kProbeNear;
+    settings.camera.near_m = static_cast<float>(kProbeNear * scene_unit(world));
     settings.world_from_camera =
         dmat4(dvec4(axes.right, 0.0), dvec4(axes.up, 0.0), dvec4(-axes.forward, 0.0), dvec4(eye, 1.0));
   }

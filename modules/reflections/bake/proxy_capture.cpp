@@ -10,11 +10,12 @@
 #include <vector>
 
 #include "modules/reflections/bake/capture_view.h"
+#include "modules/reflections/scene_unit.h"
 
 namespace gloam {
 namespace {
 
-constexpr double kNear = 0.1;               // metres between the eye and the near side of the capture
+constexpr double kNear = 0.1;               // scene_unit()s between the eye and the near side of the capture
 constexpr std::uint32_t kPixelsATexel = 2;  // in each direction, against jagged edges
 
 /// The direction that is up in the view of a proxy.
@@ -33,20 +34,21 @@ void turn_upside_down(CapturedPicture& picture) {
 
 }  // namespace
 
-ViewSettings proxy_view(const PlacedProxy& proxy, std::uint32_t side) {
+ViewSettings proxy_view(const PlacedProxy& proxy, std::uint32_t side, double unit_m) {
   const dvec3 x = glm::normalize(proxy.half_u), y = up_of(proxy);
   const double half_width = glm::length(proxy.half_u), half_height = std::abs(glm::dot(proxy.half_v, y));
   const double longer = 2.0 * std::max(half_width, half_height);
-  const double before = std::clamp(0.1 * longer, 0.25, 1.0), behind = std::clamp(0.25 * longer, 1.0, 4.0);
+  const double before = std::clamp(0.1 * longer, 0.25 * unit_m, unit_m);
+  const double behind = std::clamp(0.25 * longer, unit_m, 4.0 * unit_m), near = kNear * unit_m;
   ViewSettings settings = capture_view(0);
   settings.width = settings.height = side;
   settings.exact_width = true;
   settings.camera.orthographic = true;
   settings.camera.half_width_m = static_cast<float>(half_width);
   settings.camera.half_height_m = static_cast<float>(half_height);
-  settings.camera.near_m = static_cast<float>(kNear);
-  settings.camera.far_m = static_cast<float>(kNear + before + behind);
-  const dvec3 eye = proxy.center + (before + kNear) * proxy.normal;
+  settings.camera.near_m = static_cast<float>(near);
+  settings.camera.far_m = static_cast<float>(near + before + behind);
+  const dvec3 eye = proxy.center + (before + near) * proxy.normal;
   settings.world_from_camera = dmat4(dvec4(x, 0.0), dvec4(y, 0.0), dvec4(proxy.normal, 0.0), dvec4(eye, 1.0));
   return settings;
 }
@@ -55,7 +57,7 @@ Result<CapturedPicture> capture_proxy(Renderer& renderer, World& world, const Pl
   // read_image() draws a view again, so depth is read from a view without light.
   std::array<ViewRequest, 2> requests;
   ViewSettings &lit = requests[0].settings, &unlit = requests[1].settings;
-  lit = unlit = proxy_view(proxy, kPixelsATexel * side);
+  lit = unlit = proxy_view(proxy, kPixelsATexel * side, scene_unit(world));
   unlit.id = capture_view(1).id;
   for (const auto& module : renderer.modules()) unlit.without.emplace_back(module->name());
   GLOAM_TRY(renderer.render(world, requests));

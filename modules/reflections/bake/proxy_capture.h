@@ -13,10 +13,10 @@
 namespace gloam {
 
 /// The orthographic view of a proxy: it looks against the proxy's normal, has the exact size of the quad, and sees from
-/// 10 % of the quad's longer side in front of it (at least 0.25 m, at most 1 m) to 25 % behind it (1 m, 4 m). side:
-/// pixels of both sides, so pixels are not square where the quad is not. Of a sheared proxy it shows the rectangle
-/// along half_u.
-[[nodiscard]] ViewSettings proxy_view(const PlacedProxy& proxy, std::uint32_t side);
+/// 10 % of the quad's longer side in front of it (at least 0.25 unit_m, at most 1) to 25 % behind it (1, 4). unit_m:
+/// scene_unit(). side: pixels of both sides, so pixels are not square where the quad is not. Of a sheared proxy it
+/// shows the rectangle along half_u.
+[[nodiscard]] ViewSettings proxy_view(const PlacedProxy& proxy, std::uint32_t side, double unit_m = 1.0);
 
 /// Draws the static scene as proxy_view() sees it and returns it with `side` texels, alpha 0 where no opaque surface
 /// was met. u runs along half_u, v against half_v.

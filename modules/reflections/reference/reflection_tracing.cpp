@@ -21,14 +21,14 @@
 namespace gloam {
 namespace {
 
-/// Offset of ray starts in metres, and per metre of distance from the origin of rays: as in traced visibility.
-constexpr double kRayStart = 1e-4;
-constexpr double kRayStartPerMetre = 2e-5;
+/// Offset of ray starts as a share of the point's and the camera's coordinates: as in traced visibility.
+constexpr double kRayStartShare = 4e-5;
 constexpr double kBehindSurface = 2e-4;    // sine of an angle below a surface, from which on it hides a light
 constexpr double kMostRadiance = 65504.0;  // of frames, whose light is in half floats
 
-dvec3 ray_start(const dvec3& position, const dvec3& face_normal) {
-  return position + face_normal * (kRayStart + kRayStartPerMetre * glm::length(position));
+/// Positions are relative to the tracer's origin.
+dvec3 ray_start(const dvec3& position, const dvec3& face_normal, const dvec3& camera) {
+  return position + face_normal * (kRayStartShare * (glm::length(position) + glm::length(camera)));
 }
 
 double brightness_of(const dvec3& color) { return color.r + color.g + color.b; }
@@ -71,7 +71,7 @@ class PixelTracer {
   /// Sets up the pixel's rays and their weights.
   void aim(const PixelSurface& surface, const PixelSequence& sequence) {
     const ReflectionLobe lobe(surface.normal, surface.face_normal, surface.to_eye, surface.roughness);
-    const vec3 origin(ray_start(surface.position + tracer_from_camera_, surface.face_normal));
+    const vec3 origin(ray_start(surface.position + tracer_from_camera_, surface.face_normal, tracer_from_camera_));
     rays_.clear();
     weights_.clear();
     for (std::uint32_t i = 0; surface.roughness >= kMirrorRoughness && i < settings_.rays; ++i) {
@@ -145,7 +145,7 @@ class PixelTracer {
     const bool from_behind = s.subsurface && glm::dot(face_normal, light.kind == LightKind::directional
                                                                        ? -light.axis
                                                                        : light.position - dvec3(s.position)) < 0.0;
-    const dvec3 start = ray_start(dvec3(s.position), from_behind ? -face_normal : face_normal);
+    const dvec3 start = ray_start(dvec3(s.position), from_behind ? -face_normal : face_normal, tracer_from_camera_);
     if (!aim_at_emitter(light, start, on_emitter.x, on_emitter.y, shadow)) {
       radiance_[ray] += carried;
       return;

@@ -25,7 +25,8 @@ std::uint64_t hash_of(const ShadowFace& face) {
   Hasher hasher;
   add(hasher, face.origin);
   for (const vec3& axis : {face.right, face.up, face.forward}) add(hasher, axis);
-  for (const float value : {face.tan_half, face.half_extent_m, face.near_m, face.far_m, face.emitter_radius_m})
+  for (const float value :
+       {face.tan_half, face.half_extent_m, face.near_m, face.clip_share, face.far_m, face.bulb_radius_m})
     add(hasher, value);
   hasher.value(face.square.size);
   return hasher.digest();

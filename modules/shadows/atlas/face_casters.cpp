@@ -78,7 +78,7 @@ void add_clusters(const FaceVolume& volume, const Caster& caster, bool simplifie
 FaceVolume face_volume(const ShadowFace& face) {
   FaceVolume volume;
   volume.origin = face.origin;
-  volume.emitter_radius_m = face.emitter_radius_m;
+  volume.bulb_radius_m = face.bulb_radius_m;
   volume.frustum.planes[5] = {vec3(0.0f), 1.0f};
   const bool perspective = face.tan_half > 0.0f;
   const vec3 sides[] = {face.right, -face.right, face.up, -face.up};
@@ -87,11 +87,11 @@ FaceVolume face_volume(const ShadowFace& face) {
                                            : Plane{sides[i], face.half_extent_m};
   // Casters between a directional light and its box cast shadows into it: they are drawn at the near side, so there is
   // no near plane.
-  volume.frustum.planes[4] = perspective ? Plane{face.forward, -face.near_m} : Plane{vec3(0.0f), 1.0f};
+  volume.frustum.planes[4] = perspective ? Plane{face.forward, -face.clip_m()} : Plane{vec3(0.0f), 1.0f};
   if (face.far_m > 0.0f) volume.frustum.planes[5] = {-face.forward, face.far_m};
   if (perspective) volume.reach_m = face.far_m;
   // In a corner of the face, the near plane is farthest from the light.
-  if (perspective) volume.clear_m = face.near_m * std::sqrt(1.0f + 2.0f * face.tan_half * face.tan_half);
+  if (perspective) volume.clear_m = face.clip_m() * std::sqrt(1.0f + 2.0f * face.tan_half * face.tan_half);
   return volume;
 }
 
@@ -119,7 +119,7 @@ CasterBox relative_box(const dvec3& origin, const CasterBox& box) {
 
 bool may_see(const FaceVolume& volume, const CasterBox& box) {
   if (!box.known()) return true;  // unknown: it may be anywhere
-  if (is_bulb(volume.origin, static_cast<double>(volume.emitter_radius_m), box.low, box.high, box.emissive_reach_m))
+  if (is_bulb(volume.origin, static_cast<double>(volume.bulb_radius_m), box.low, box.high, box.emissive_reach_m))
     return false;
   return may_see(volume, Aabb{vec3(box.low - volume.origin), vec3(box.high - volume.origin)});
 }
@@ -136,7 +136,7 @@ CasterProjection projection_of(const ShadowFace& face) {
   rows[0] = dvec4(right * scale, 0.0);
   rows[1] = dvec4(up * scale, 0.0);
   if (perspective) {
-    rows[2] = dvec4(0.0, 0.0, 0.0, static_cast<double>(face.near_m));
+    rows[2] = dvec4(0.0, 0.0, 0.0, static_cast<double>(face.clip_m()));
     rows[3] = dvec4(forward, 0.0);
   } else {
     const double depth = static_cast<double>(face.far_m - face.near_m);

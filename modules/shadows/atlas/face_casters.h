@@ -19,9 +19,9 @@ namespace gloam {
 struct FaceVolume {
   dvec3 origin = dvec3(0.0);  ///< world
   Frustum frustum;
-  float reach_m = 0.0f;            ///< radius around the origin beyond which nothing is lit; 0: unlimited
-  float emitter_radius_m = -1.0f;  ///< ShadowFace::emitter_radius_m
-  float clear_m = 0.0f;            ///< the near plane cuts nothing that is farther from the origin; orthographic: 0
+  float reach_m = 0.0f;         ///< radius around the origin beyond which nothing is lit; 0: unlimited
+  float bulb_radius_m = -1.0f;  ///< ShadowFace::bulb_radius_m
+  float clear_m = 0.0f;         ///< the near plane cuts nothing that is farther from the origin; orthographic: 0
 };
 [[nodiscard]] FaceVolume face_volume(const ShadowFace& face);
 /// The part of the volume that is drawn into these texels, widened by one texel on each side.

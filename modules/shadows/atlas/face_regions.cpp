@@ -16,7 +16,7 @@ constexpr std::uint32_t kLeastPartial = 64;     // texels of a face's side; smal
 constexpr std::uint64_t kRegionCost = 64 * 64;  // texels that cost as much as one more region
 constexpr double kWholeShare = 0.75;  // share of a face; when regions cover more, the whole face costs no more
 constexpr double kMargin = 2.0;       // texels of margin at each side
-constexpr double kNearShare = 0.5;    // share of near_m; nothing nearer is drawn
+constexpr double kClipShare = 0.5;    // share of the near plane's depth; nothing nearer is drawn
 
 /// Bounds of points in a face, in units of its half extent, x to the right and y upward.
 struct FaceBounds {
@@ -46,10 +46,10 @@ FaceBounds orthographic_bounds(const ShadowFace& face, const std::array<dvec3, 8
   return bounds;
 }
 
-/// Bounds of the part of the box beyond kNearShare of the near plane.
+/// Bounds of the part of the box beyond kClipShare of the near plane.
 FaceBounds perspective_bounds(const ShadowFace& face, const std::array<dvec3, 8>& corners) {
   FaceBounds bounds;
-  const double near = kNearShare * static_cast<double>(face.near_m);
+  const double near = kClipShare * static_cast<double>(face.clip_m());
   const auto grow = [&](const dvec3& point) {
     bounds.grow(glm::dvec2(point) / (point.z * static_cast<double>(face.tan_half)));
   };

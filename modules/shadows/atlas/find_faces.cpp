@@ -44,7 +44,7 @@ struct LocalPlan {
 LocalPlan plan_local(const ShadowLight& light, const RenderView& view, const ShadowSettings& settings,
                      std::span<const WantedSize> wanted) {
   LocalPlan plan;
-  plan.shadow = local_shadow(light.light, light.world_from_node, settings.kernel_rim);
+  plan.shadow = local_shadow(light.light, light.world_from_node, settings.kernel_rim, settings.d16);
   if (!settings.enabled || !light.caster.enabled) plan.shadow.kind = GLOAM_SHADOW_NONE;
   if (plan.shadow.kind == GLOAM_SHADOW_NONE) return plan;
   const bool known = light.bounds.radius_m > 0.0f;

@@ -20,7 +20,7 @@ namespace {
 struct Lamp {
   Entity entity;
   dvec3 position = dvec3(0.0);
-  double emitter_radius_m = 0.0;
+  double bulb_radius_m = 0.0;
 };
 
 std::vector<Lamp> casting_lamps(const World& world) {
@@ -28,8 +28,7 @@ std::vector<Lamp> casting_lamps(const World& world) {
   world.view<const Light, const WorldTransform, Maybe<const ShadowCaster>>().each(
       [&](Entity entity, const Light& light, const WorldTransform& transform, const ShadowCaster* caster) {
         if (light.kind == LightKind::directional || (caster != nullptr && !caster->enabled)) return;
-        const double width = light.width_m > 0.0f ? static_cast<double>(light.width_m) : 0.0;
-        lamps.push_back({entity, dvec3(transform.matrix[3]), 0.5 * width});
+        lamps.push_back({entity, dvec3(transform.matrix[3]), bulb_radius(light)});
       });
   std::sort(lamps.begin(), lamps.end(), [](const Lamp& a, const Lamp& b) { return a.entity.index < b.entity.index; });
   return lamps;
@@ -67,7 +66,7 @@ bool encloses(const Primitive& primitive, const Material* material, const dmat4&
   if (!box.known() || glm::clamp(lamp.position, box.min, box.max) != lamp.position) return false;
   const bool emissive = material != nullptr && is_emissive(*material);
   const double reach = emissive ? half_diagonal(primitive.bounds, world_from_mesh) : 0.0;
-  if (is_bulb(lamp.position, lamp.emitter_radius_m, box.min, box.max, reach)) return false;
+  if (is_bulb(lamp.position, lamp.bulb_radius_m, box.min, box.max, reach)) return false;
   return filled_share(primitive, world_from_mesh, lamp.position) > kAlmostAll;
 }
 

@@ -38,6 +38,7 @@ class GroupList {
     group.orthographic = face.tan_half > 0.0f ? 0u : 1u;
     group.on_background = on_background ? 1u : 0u;
     group.gap = surface_gap(face, steepest_);
+    group.depth_scale = 1.0f / face.clip_share;
     add_groups(texels.begin / block, (texels.end + block - 1u) / block, GLOAM_SHADOW_MIP_GROUP,
                [&](uvec2 begin, uvec2 end) {
                  group.begin = begin;

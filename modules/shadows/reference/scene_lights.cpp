@@ -11,12 +11,12 @@
 #include "engine/math/finite.h"
 #include "engine/scene/components.h"
 #include "modules/shadows/components.h"
+#include "modules/shadows/views/bulbs.h"
 
 namespace gloam {
 namespace {
 
-constexpr double kMostColor = 1e20;         // as in the table of lights that frames use
-constexpr double kEmitterClearance = 0.05;  // metres before the emitter where rays end, as in traced visibility
+constexpr double kMostColor = 1e20;  // as in the table of lights that frames use
 constexpr double kRightAngle = 1.57079632679489661923;
 
 bool gives_light(const Light& light) {
@@ -40,6 +40,7 @@ TwinLight twin_of(const Light& light, const dmat4& world_from_node, const dvec3&
   }
   twin.radius = light.kind == LightKind::directional ? std::tan(0.5 * static_cast<double>(light.apparent_angle))
                                                      : 0.5 * static_cast<double>(light.width_m);
+  twin.bulb_radius_m = bulb_radius(light);
   if (!(twin.radius > 0.0) || !std::isfinite(twin.radius)) twin.radius = 0.0;
   return twin;
 }
@@ -49,7 +50,7 @@ std::vector<std::uint32_t> bulbs_of(const TwinLight& light, const SceneTracer& t
   std::vector<std::uint32_t> bulbs;
   if (light.kind == LightKind::directional) return bulbs;
   for (const EmissiveMesh& mesh : tracer.emissive_meshes())
-    if (is_bulb(light.position + tracer.origin(), light.radius, mesh.min, mesh.max, mesh.half_diagonal_m))
+    if (is_bulb(light.position + tracer.origin(), light.bulb_radius_m, mesh.min, mesh.max, mesh.half_diagonal_m))
       bulbs.push_back(mesh.mesh);
   return bulbs;
 }
@@ -101,18 +102,22 @@ dvec3 illuminance_of(const TwinLight& light, const dvec3& point, dvec3& to_light
     return light.color;
   }
   const dvec3 offset = light.position - point;
-  const double d2 = std::max(glm::dot(offset, offset), 1e-6);
+  const double d2 = std::max(glm::dot(offset, offset), 1e-30);
   if (d2 >= light.range2) return dvec3(0.0);
   to_light = offset / std::sqrt(d2);
   const double cone = std::clamp(-glm::dot(to_light, light.axis) * light.spot_scale + light.spot_offset, 0.0, 1.0);
   return light.color * (range_window(d2 / light.range2) * cone * cone / d2);
 }
 
+float ray_end(double distance, double from_origin) {
+  return static_cast<float>(1.0 - kRayRounding * (1.0 + from_origin / distance));
+}
+
 bool aim_at_emitter(const TwinLight& light, const dvec3& start, double x, double y, ShadowRay& ray) {
   const bool local = light.kind != LightKind::directional;
   const dvec3 middle = local ? light.position - start : -light.axis;
   const double distance = glm::length(middle);
-  if (local && distance <= kEmitterClearance) return false;
+  if (local && !(distance > kRayRounding * glm::length(start))) return false;
   dvec3 to = middle;
   if (light.radius > 0.0) {
     // The emitter faces the point: it is a disc that looks the same from everywhere.
@@ -125,7 +130,7 @@ bool aim_at_emitter(const TwinLight& light, const dvec3& start, double x, double
   ray = {.origin = vec3(start),
          .direction = vec3(to),
          .from = 0.0f,
-         .to = local ? static_cast<float>(1.0 - kEmitterClearance / distance) : std::numeric_limits<float>::infinity()};
+         .to = local ? ray_end(distance, glm::length(start)) : std::numeric_limits<float>::infinity()};
   return true;
 }
 

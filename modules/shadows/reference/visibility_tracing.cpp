@@ -16,6 +16,7 @@
 #include "engine/scene/components.h"
 #include "modules/lights/components.h"
 #include "modules/shadows/components.h"
+#include "modules/shadows/reference.h"
 #include "modules/shadows/reference/emitter_samples.h"
 #include "modules/shadows/views/bulbs.h"
 
@@ -31,6 +32,7 @@ struct Emitter {
   double range_m = 0.0;
   double cos_outer = -1.0;           ///< cosine of a spot's outer half angle
   double radius = 0.0;               ///< radius of the disc in metres; directional: at distance 1
+  double bulb_radius_m = 0.0;        ///< see is_bulb()
   std::vector<std::uint32_t> bulbs;  ///< numbers of the meshes that do not block it
 
   [[nodiscard]] bool reaches(const dvec3& point) const {
@@ -56,6 +58,7 @@ Emitter make_emitter(Entity entity, const Light& light, const dmat4& world_from_
   const dvec3 node_z(world_from_node[2]);
   if (glm::length(node_z) > 0.0) emitter.axis = -glm::normalize(node_z);
   emitter.range_m = static_cast<double>(effective_range(light));
+  emitter.bulb_radius_m = bulb_radius(light);
   emitter.cos_outer = std::cos(std::min(static_cast<double>(light.outer_angle), 1.57079632679489661923));
   emitter.radius = light.kind == LightKind::directional ? std::tan(0.5 * static_cast<double>(light.apparent_angle))
                                                         : 0.5 * static_cast<double>(light.width_m);
@@ -82,7 +85,7 @@ std::vector<std::uint32_t> bulbs_of(const Emitter& emitter, const dvec3& camera,
   std::vector<std::uint32_t> bulbs;
   if (emitter.kind == LightKind::directional) return bulbs;
   for (const EmissiveMesh& mesh : tracer.emissive_meshes())
-    if (is_bulb(emitter.position + camera, emitter.radius, mesh.min, mesh.max, mesh.half_diagonal_m))
+    if (is_bulb(emitter.position + camera, emitter.bulb_radius_m, mesh.min, mesh.max, mesh.half_diagonal_m))
       bulbs.push_back(mesh.mesh);
   return bulbs;
 }
@@ -153,22 +156,22 @@ class RowTracer {
     }
   }
 
-  /// Sets up the rays. Returns false when the point is within kEmitterClearance_m of the light, so that nothing can
-  /// block.
+  /// Sets up the rays. Returns false when the point is at the light, so that nothing can block.
   bool aim(const SurfacePoint& point, const Emitter& emitter, const EmitterSamples::Pattern& pattern) {
     const bool local = emitter.kind != LightKind::directional;
     const dvec3 to_light = local ? emitter.position - point.position : -emitter.axis;
     const double side = point.subsurface && glm::dot(point.normal, to_light) < 0.0 ? -1.0 : 1.0;
-    const dvec3 start =
-        point.position + point.normal * side * (kRayStart_m + kRayStartPerMetre * glm::length(point.position));
+    const double lift =
+        kRayStartShare * glm::length(point.position) + kRayRounding * glm::length(point.position + camera_from_tracer_);
+    const dvec3 start = point.position + point.normal * side * lift;
     const dvec3 middle = local ? emitter.position - start : to_light;
     const double distance = glm::length(middle);
-    if (local && distance <= kEmitterClearance_m) return false;
+    if (local && !(distance > lift)) return false;
     dvec3 u, v;
     span_disc(middle / distance, u, v);
     const vec3 disc_u(u * emitter.radius), disc_v(v * emitter.radius), center(middle);
     const float end =
-        local ? static_cast<float>(1.0 - kEmitterClearance_m / distance) : std::numeric_limits<float>::infinity();
+        local ? ray_end(distance, glm::length(start + camera_from_tracer_)) : std::numeric_limits<float>::infinity();
     const vec3 origin(start + camera_from_tracer_);
     rays_.resize(pattern.points.size());
     for (std::size_t i = 0; i < rays_.size(); ++i) {
@@ -315,7 +318,7 @@ std::string visibility_identity(const VisibilityInput& input) {
     hasher.value(e.entity.index).value(e.entity.generation).value(e.kind).bytes_of(e.position).bytes_of(e.axis);
     hasher.bytes_of(e.range_m).bytes_of(e.cos_outer).bytes_of(e.radius);
   }
-  constexpr int kMethod = 3;  // increase when the same input gives other visibilities
+  constexpr int kMethod = 4;  // increase when the same input gives other visibilities
   return "visibility " + std::to_string(kMethod) + " of triangles " + std::to_string(input.tracer.version()) +
          " frame and lights " + std::to_string(hasher.digest()) + " size " + std::to_string(geometry.view.width) + "x" +
          std::to_string(geometry.view.height) + " samples " + std::to_string(input.samples);

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "engine/core/assert.h"
 
@@ -18,10 +19,13 @@ namespace {
 
 constexpr double kLogarithmicShare = 0.9;  // weight of the logarithmic split; the rest is uniform
 constexpr double kLeastStart = 1e-3;       // share of the far depth: logarithmic splits begin there or farther
-constexpr double kReachUnknown = 1000.0;   // metres to each side of a sphere when the casters' bounds are unknown
-constexpr double kMostReach = 20000.0;     // most metres to each side of a sphere
-constexpr double kLeastSize = 1e-2;        // metres: least radius of the casters' sphere, and least depth of a box
-constexpr double kStepsOfRange = 16.0;     // depth ranges begin and end at multiples of about range / this
+constexpr double kReachUnknown = 64.0;     // radii to each side of a sphere when the casters' bounds are unknown
+constexpr double kMostReach = 16384.0;     // most radii to each side of a sphere: depths keep a texel's precision
+constexpr double kWideCasters = 4096.0;  // radii; of casters that reach farther, only what is beside the sphere counts
+constexpr double kLeastDepth = 1e-3;     // least depth of a box, in radii of its sphere
+constexpr double kLeastRadius = 1e-12;   // least radius of the casters' sphere, as a share of their coordinates
+constexpr double kLeastFar = 1e-3;       // least depth of the cascades, as a share of the near plane's
+constexpr double kStepsOfRange = 16.0;   // depth ranges begin and end at multiples of about range / this
 
 /// The least power of two ≥ value.
 double power_above(double value) { return std::exp2(std::ceil(std::log2(value))); }
@@ -30,7 +34,8 @@ dvec3 center_of(const CasterBounds& casters) { return (casters.min + casters.max
 
 /// Radius of the casters' sphere, rounded up in steps, so that small movements of casters do not change it.
 double radius_of(const CasterBounds& casters) {
-  const double radius = std::max(0.5 * glm::length(casters.max - casters.min), kLeastSize);
+  const double largest = std::max(glm::length(casters.min), glm::length(casters.max));
+  const double radius = std::max({0.5 * glm::length(casters.max - casters.min), kLeastRadius * largest, 1e-30});
   const double step = power_above(radius) / kStepsOfRange;
   return std::ceil(radius / step) * step;
 }
@@ -59,23 +64,41 @@ struct Range {
   double high = 0.0;
 };
 
-/// The range that the casters cover along an axis.
-Range extent_along(const CasterBounds& casters, const dvec3& axis) {
-  const double center = glm::dot(axis, center_of(casters));
-  const double half = glm::dot(glm::abs(axis), (casters.max - casters.min) * 0.5);
+/// The range that the casters cover along `forward`, relative to the sphere's centre.
+Range extent_along(const CasterBounds& casters, const dvec3& forward, const CascadeSphere& sphere) {
+  const double center = glm::dot(forward, center_of(casters) - sphere.center);
+  const double half = glm::dot(glm::abs(forward), (casters.max - casters.min) * 0.5);
   return {center - half, center + half};
+}
+
+/// The range along `forward`, relative to the sphere's centre, in which lines parallel to it through the sphere are
+/// inside the casters' box. Empty (low > high) if no line meets the box.
+Range extent_beside(const CasterBounds& casters, const dvec3& forward, const CascadeSphere& sphere) {
+  Range range{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  for (int axis = 0; axis < 3; ++axis) {
+    const double radius = sphere.radius_m * std::sqrt(std::max(0.0, 1.0 - forward[axis] * forward[axis]));
+    const double low = casters.min[axis] - sphere.center[axis] - radius;
+    const double high = casters.max[axis] - sphere.center[axis] + radius;
+    if (std::abs(forward[axis]) < 1e-12) continue;
+    const double a = low / forward[axis], b = high / forward[axis];
+    range.low = std::max(range.low, std::min(a, b));
+    range.high = std::min(range.high, std::max(a, b));
+  }
+  return range;
 }
 
 Range depth_range(const CasterBounds& casters, const dvec3& forward, const CascadeSphere& sphere) {
   const double center = glm::dot(forward, sphere.center);
-  const double reach = sphere.radius_m + (casters.known() ? kMostReach : kReachUnknown);
-  Range range{center - reach, center + reach};
+  const double reach = sphere.radius_m * (1.0 + (casters.known() ? kMostReach : kReachUnknown));
+  Range range{-reach, reach};
   if (casters.known()) {
-    const Range covered = extent_along(casters, forward);
+    Range covered = extent_along(casters, forward, sphere);
+    if (covered.high - covered.low > kWideCasters * sphere.radius_m) covered = extent_beside(casters, forward, sphere);
     const Range both{std::max(range.low, covered.low), std::min(range.high, covered.high)};
     if (both.low <= both.high) range = both;
   }
-  const double step = power_above(std::max(range.high - range.low, kLeastSize)) / kStepsOfRange;
+  range = {center + range.low, center + range.high};
+  const double step = power_above(std::max(range.high - range.low, kLeastDepth * sphere.radius_m)) / kStepsOfRange;
   const double anchor = glm::dot(forward, casters.grid_anchor);
   const double low = std::floor((range.low - anchor) / step) * step + anchor;
   return {low, std::max(std::ceil((range.high - anchor) / step) * step + anchor, low + step)};
@@ -99,13 +122,19 @@ bool CasterBounds::known() const {
   return true;
 }
 
+double CasterBounds::usual_size() const {
+  return sized == 0 ? 0.0 : power_above(std::exp2(log2_sizes / static_cast<double>(sized)));
+}
+
 double shadow_distance(const RenderView& view, const CasterBounds& casters) {
-  if (!casters.known()) return kDefaultShadowDistance;
+  const double near_m = std::abs(static_cast<double>(view.near_m));
+  if (!casters.known()) return kDefaultShadowDistance * near_m;
   const double radius = radius_of(casters);
   const double to_center = glm::length(view.position - center_of(casters));
   const double distance = 2.0 * radius * std::max(1.0, power_above((to_center + radius) / (2.0 * radius)));
   const double to_casters = std::max(to_center - radius, 0.0);
-  return std::min(distance, kMostShadowDistance * power_above(1.0 + to_casters / kMostShadowDistance));
+  const double most = std::max({kMostNearPlanes * near_m, kMostCasterSizes * casters.usual_size(), 1e-30});
+  return std::min(distance, most * power_above(1.0 + to_casters / most));
 }
 
 std::vector<double> cascade_splits(double near_m, double far_m, std::uint32_t count, bool orthographic) {
@@ -157,7 +186,7 @@ std::vector<CascadeSphere> cascade_spheres(const RenderView& view, const CasterB
   double far_m = shadow_distance(view, casters);
   if (orthographic) far_m = std::min(far_m, static_cast<double>(view.view_depth(0.0f)));
   std::vector<CascadeSphere> spheres;
-  if (!(far_m > near_m)) far_m = near_m + kLeastSize;
+  if (!(far_m > near_m)) far_m = near_m + std::max(kLeastFar * std::abs(near_m), 1e-30);
   const std::vector<double> splits = cascade_splits(near_m, far_m, count, orthographic);
   for (std::uint32_t i = 0; i < count; ++i) {
     CascadeSphere sphere = slice_sphere(view, i == 0 ? near_m : splits[i - 1], splits[i]);

@@ -18,8 +18,13 @@ struct CasterBounds {
   dvec3 min = dvec3(std::numeric_limits<double>::infinity());
   dvec3 max = dvec3(-std::numeric_limits<double>::infinity());
 
+  double log2_sizes = 0.0;  ///< sum of the binary logarithms of the casters' half diagonals
+  std::uint64_t sized = 0;  ///< casters in that sum
+
   /// False when there are no casters, and when a bound is not finite.
   [[nodiscard]] bool known() const;
+  /// Geometric mean of the casters' half diagonals, rounded up to a power of two; 0: unknown.
+  [[nodiscard]] double usual_size() const;
   void grow(const dvec3& box_min, const dvec3& box_max) {
     min = glm::min(min, box_min);
     max = glm::max(max, box_max);
@@ -34,15 +39,17 @@ struct CascadeSphere {
   double radius_m = 0.0;
 };
 
-/// Metres from the camera to which shadows of directional lights reach when the casters' bounds are unknown.
-inline constexpr double kDefaultShadowDistance = 100.0;
-/// Greatest shadow_distance() in metres for a camera inside the casters' bounds. A greater distance would leave too few
-/// texels for near surfaces.
-inline constexpr double kMostShadowDistance = 1000.0;
+/// Distance from the camera to which shadows of directional lights reach when the casters' bounds are unknown, in
+/// distances of the near plane.
+inline constexpr double kDefaultShadowDistance = 1000.0;
+/// Greatest shadow_distance() for a camera inside the casters' bounds: the greater of so many distances of the near
+/// plane and so many usual sizes of casters. A greater distance would leave too few texels for near surfaces.
+inline constexpr double kMostNearPlanes = 10000.0;
+inline constexpr double kMostCasterSizes = 256.0;
 
-/// Metres from the camera to which shadows of directional lights reach. The distance is the diameter of the casters'
-/// bounding sphere, times the smallest power of two (at least 1) with which all casters are within that distance of the
-/// camera. The limit is kMostShadowDistance for a camera inside the sphere; outside, a power of two that grows with the
+/// Distance from the camera to which shadows of directional lights reach. It is the diameter of the casters' bounding
+/// sphere, times the smallest power of two (at least 1) with which all casters are within that distance of the
+/// camera. The limit is as above for a camera inside the sphere; outside, a power of two that grows with the
 /// distance to the sphere multiplies the limit. All positions inside the sphere get the same result.
 [[nodiscard]] double shadow_distance(const RenderView& view, const CasterBounds& casters);
 
@@ -62,9 +69,9 @@ inline constexpr double kMostShadowDistance = 1000.0;
 
 /// The box of a cascade that holds the sphere. square: place in the atlas; its size (> 2) is the resolution. The
 /// corners lie on a texel grid fixed to the world (at CasterBounds::grid_anchor), and near and far side lie at steps of
-/// a depth grid, so that the map of a moving camera shifts by whole texels. The box reaches from the nearest caster to
-/// the farthest along the light; 1000 m to both sides of the sphere when the casters' bounds are unknown, and never
-/// more than 20 km to either side.
+/// a depth grid, so that the map of a moving camera shifts by whole texels. The box reaches along the light as far as
+/// casters do; if that is more than depths can hold, as far as their bounds reach beside the sphere, and kMostReach
+/// radii to either side at most. It reaches kReachUnknown radii when the casters' bounds are unknown.
 [[nodiscard]] ShadowFace cascade_face(Entity light, const FaceAxes& axes, const CascadeSphere& sphere,
                                       const CasterBounds& casters, const AtlasSquare& square, float kernel_rim);
 

@@ -7,13 +7,11 @@
 
 #include "engine/core/assert.h"
 #include "engine/math/finite.h"
+#include "modules/shadows/views/bulbs.h"
 
 namespace gloam {
 namespace {
 
-constexpr float kNear = 0.05f;  // metres: near plane of a spot's face
-// Near plane of a cube face, in metres. The near planes of the six faces form a cube, whose corners are kNear away.
-constexpr float kCubeNear = 0.02886f;
 constexpr float kWidestSpot = kPi / 3.0f * 1.0001f;  // half angle in radians: wider cones get a cube
 constexpr float kNarrowestSpot = kPi / 180.0f;       // half angle in radians
 constexpr float kWidestCookie = kPi * 0.47f;         // half angle in radians: below 90°, which has no tangent
@@ -72,20 +70,22 @@ std::uint32_t cube_face_of(const dvec3& direction) {
   return axis * 2 + (in_cube[static_cast<int>(axis)] < 0.0 ? 1 : 0);
 }
 
-LocalShadow local_shadow(const Light& light, const dmat4& world_from_node, float kernel_rim) {
+LocalShadow local_shadow(const Light& light, const dmat4& world_from_node, float kernel_rim, bool d16) {
   LocalShadow shadow;
   shadow.position = dvec3(world_from_node[3]);
   shadow.axes = node_axes(world_from_node);
   shadow.range_m = effective_range(light);
   shadow.emitter_diameter_m = light.width_m > 0.0f && std::isfinite(light.width_m) ? light.width_m : 0.0f;
+  shadow.bulb_radius_m = static_cast<float>(bulb_radius(light));
   const bool spot = light.kind == LightKind::spot;
   const bool sound = is_finite(shadow.position) && (!spot || std::isfinite(light.outer_angle));
   const float half = spot && sound ? std::clamp(light.outer_angle, 0.0f, kPi * 0.5f) : kPi * 0.5f;
   if (spot) shadow.cookie_tan = std::tan(std::clamp(half, kNarrowestSpot, kWidestCookie));
-  if (!sound || light.kind == LightKind::directional || !(shadow.range_m > kNear)) return shadow;
+  if (!sound || light.kind == LightKind::directional) return shadow;
   const bool one_face = spot && half <= kWidestSpot;
   shadow.kind = one_face ? GLOAM_SHADOW_SPOT : GLOAM_SHADOW_CUBE;
-  shadow.near_m = one_face ? kNear : kCubeNear;
+  shadow.near_m = shadow.range_m * (d16 ? kNearShare16 : kNearShare);
+  shadow.clip_share = d16 ? kNearShare / kNearShare16 : 1.0f;
   shadow.tan_inner = one_face ? shadow.cookie_tan : 1.0f;
   shadow.tan_half = shadow.tan_inner * (1.0f + kernel_rim);
   return shadow;
@@ -106,7 +106,8 @@ ShadowFace local_face(Entity light, const LocalShadow& shadow, std::uint32_t ind
   face.tan_half = shadow.tan_half;
   face.near_m = shadow.near_m;
   face.far_m = shadow.range_m;
-  face.emitter_radius_m = 0.5f * shadow.emitter_diameter_m;
+  face.clip_share = shadow.clip_share;
+  face.bulb_radius_m = shadow.bulb_radius_m;
   return face;
 }
 
@@ -169,7 +170,7 @@ bool face_may_see(const ShadowFace& face, const dvec3& min, const dvec3& max) {
     const dvec3 ahead = forward * static_cast<double>(face.tan_half);
     for (const dvec3& side : {ahead + right, ahead - right, ahead + up, ahead - up})
       if (reach(side) < 0.0) return false;
-    if (reach(forward) < face.near_m) return false;
+    if (reach(forward) < face.clip_m()) return false;
     const dvec3 nearest = glm::max(glm::abs(center) - half, dvec3(0.0));
     return !(glm::length(nearest) - slack > face.far_m);
   }

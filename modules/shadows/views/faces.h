@@ -35,8 +35,10 @@ struct LocalShadow {
   dvec3 position = dvec3(0.0);             ///< world
   FaceAxes axes;                           ///< the node's axes; a cube's faces use cube_axes()
   float range_m = 0.0f;
-  float near_m = 0.0f;              ///< depth of the faces' near planes
+  float near_m = 0.0f;              ///< ShadowFace::near_m of all faces
+  float clip_share = 1.0f;          ///< ShadowFace::clip_share
   float emitter_diameter_m = 0.0f;  ///< ≥ 0
+  float bulb_radius_m = 0.0f;       ///< ShadowFace::bulb_radius_m
   float tan_inner = 1.0f;           ///< tangent of half a face's field of view, without the rim
   float tan_half = 1.0f;            ///< the same with the rim
   float cookie_tan = 1.0f;          ///< tangent of the half angle that a cookie fills
@@ -46,10 +48,18 @@ struct LocalShadow {
   }
 };
 
-/// How the light casts shadows. kernel_rim: ShadowSettings::kernel_rim. Kind none for directional lights, for lights
-/// with a range of at most 5 cm, and when the position or the cone angle is not finite; axes and cookie_tan are valid
-/// in any case.
-[[nodiscard]] LocalShadow local_shadow(const Light& light, const dmat4& world_from_node, float kernel_rim);
+/// Near plane of a local light's faces, as a share of its range. Depths are near / depth in floats, so their precision
+/// does not depend on the near plane.
+inline constexpr float kNearShare = 0x1p-44f;
+/// In maps of 16 bits: ShadowFace::near_m as a share of the range. A greater one would lose near shadows, a smaller one
+/// the depths of far surfaces.
+inline constexpr float kNearShare16 = 0x1p-8f;
+
+/// How the light casts shadows. kernel_rim: ShadowSettings::kernel_rim. d16: maps have 16 bits. Kind none for
+/// directional lights, and when the position or the cone angle is not finite; axes and cookie_tan are valid in any
+/// case.
+[[nodiscard]] LocalShadow local_shadow(const Light& light, const dmat4& world_from_node, float kernel_rim,
+                                       bool d16 = false);
 
 /// Face `index` < shadow.face_count(), not yet placed in the atlas.
 [[nodiscard]] ShadowFace local_face(Entity light, const LocalShadow& shadow, std::uint32_t index);

@@ -107,7 +107,7 @@ ReflectionExtras extras_of(const World& world) {
     if (fog.density > 0.0f)
       extras.fog = {.density = static_cast<double>(fog.density),
                     .color = dvec3(fog.color),
-                    .sky_distance_m = static_cast<double>(kFogSkyDistance)};
+                    .sky_distance_m = static_cast<double>(fog.sky_distance_m)};
   });
   extras.fires = gather_fire_quads(world);
   return extras;

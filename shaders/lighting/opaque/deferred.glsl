@@ -81,7 +81,7 @@ vec3 ambient_light(ShadingPoint p, float roughness, float occlusion) {
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   float depth = texelFetch(depth_image, pixel, 0).r;
-  vec3 position = relative_position(view, gl_FragCoord.xy - 0.5, max(depth, 1e-9));
+  vec3 position = relative_position(view, gl_FragCoord.xy - 0.5, max(depth, 1e-30));
   GBufferTexel g = decode_gbuffer(texelFetch(base_color_image, pixel, 0), texelFetch(normal_image, pixel, 0).xy,
                                   texelFetch(material_image, pixel, 0));
   vec3 to_eye = normalize(to_viewer(view, position));

@@ -70,7 +70,7 @@ vec2 probe_shares(vec3 position) {
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy), texel = min(pixel / int(reflection.scale), ivec2(reflection.size) - 1);
   float depth = texelFetch(depth_image, pixel, 0).r, reflectivity = texelFetch(material_image, pixel, 0).w;
-  vec3 position = relative_position(view, vec2(pixel), max(depth, 1e-9));
+  vec3 position = relative_position(view, vec2(pixel), max(depth, 1e-30));
   bool reflects = depth > 0.0 && reflectivity > 0.0, mirrors = reflects && (tiers & 3u) != 0u;
   MirrorSurface s = mirror_surface(texel);
   vec4 color = mirrors ? texelFetch(color_image, texel, 0) : vec4(0.0);

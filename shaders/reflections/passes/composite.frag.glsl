@@ -70,7 +70,7 @@ vec3 far_radiance(ShadingPoint p, GBufferTexel g, vec3 around, ivec2 pixel) {
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   float depth = texelFetch(depth_image, pixel, 0).r;
-  vec3 position = relative_position(view, vec2(pixel), max(depth, 1e-9));
+  vec3 position = relative_position(view, vec2(pixel), max(depth, 1e-30));
   GBufferTexel g = decode_gbuffer(texelFetch(base_color_image, pixel, 0), texelFetch(normal_image, pixel, 0).xy,
                                   texelFetch(material_image, pixel, 0));
   ShadingPoint p =

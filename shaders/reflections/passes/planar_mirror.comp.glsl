@@ -51,9 +51,9 @@ vec3 light_at(vec2 uv) {
 float distance_at(vec2 uv, MirrorSurface s) {
   ivec2 size = textureSize(mirrored_depth, 0);
   float depth = texelFetch(mirrored_depth, clamp(ivec2(uv * vec2(size)), ivec2(0), size - 1), 0).r;
-  float surface_m = view_depth(view, s.position), behind_m = surface_view_depth(view, max(depth, 1e-9)) - surface_m;
+  float surface_m = view_depth(view, s.position), behind_m = surface_view_depth(view, max(depth, 1e-30)) - surface_m;
   float per_depth = view.orthographic != 0u ? 1.0 : length(s.position) / max(surface_m, 1e-6);
-  return depth > 0.0 ? max(behind_m, 0.0) * per_depth : kMostHitCentimetres * 0.01;
+  return depth > 0.0 ? max(behind_m, 0.0) * per_depth : kMostHitCentimetres * 0.01 * reflection.unit_m;
 }
 
 void main() {
@@ -66,7 +66,7 @@ void main() {
     float distance_m = distance_at(uv, s);
     color = vec4(light_at(uv), 1.0) * s.share;
     float spread = kPixelRoughness != 0u ? mirrored_share(s, distance_m) : screen_distance(s, distance_m);
-    surface = vec4(spread, max(s.roughness, 1.0 / 255.0), pack_hit_distance(distance_m));
+    surface = vec4(spread, max(s.roughness, 1.0 / 255.0), pack_hit_distance(distance_m / reflection.unit_m));
   }
   imageStore(color_image, texel, color);
   imageStore(surface_image, texel, surface);

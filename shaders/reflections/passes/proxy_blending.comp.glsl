@@ -37,7 +37,7 @@ layout(set = 0, binding = 14, rgba8) uniform writeonly image2D surface_image;  /
 #include "shaders/reflections/spread_api.glsl"
 
 const float kFar = 1e9;
-const float kBehindScreen_m = 0.3;  // a proxy this little in front of a hit of screen space stands for the same surface
+const float kBehindScreen = 0.3;  // units; a proxy this little in front of a hit of screen space stands for its surface
 
 // A layer along the ray. `order_m` sorts; kFar: empty.
 struct Layer {
@@ -95,8 +95,9 @@ void main() {
     for (uint i = 0u; i < 4u; ++i) layers[i] = Layer(kFar, 0.0, vec4(0.0));
     if (kScreenSpace != 0u) {
       vec4 ssr = texelFetch(ssr_color, texel, 0);
-      float distance_m = unpack_hit_distance(texelFetch(ssr_distance, texel, 0).xy);
-      if (ssr.a > 0.0) insert(Layer(distance_m - kBehindScreen_m, distance_m, vec4(ssr.rgb * ssr.a, ssr.a)));
+      float distance_m = reflection.unit_m * unpack_hit_distance(texelFetch(ssr_distance, texel, 0).xy);
+      if (ssr.a > 0.0)
+        insert(Layer(distance_m - kBehindScreen * reflection.unit_m, distance_m, vec4(ssr.rgb * ssr.a, ssr.a)));
     }
     if (kProxies != 0u) {
       float ratio = 1.0;
@@ -111,9 +112,9 @@ void main() {
       distance_m += part * layers[i].light.a * layers[i].distance_m;
     }
     // The remaining share is seen in a probe, far away.
-    distance_m = color.a > 1e-3 ? distance_m / color.a : kMostHitCentimetres * 0.01;
+    distance_m = color.a > 1e-3 ? distance_m / color.a : kMostHitCentimetres * 0.01 * reflection.unit_m;
     float spread = kPixelRoughness != 0u ? mirrored_share(s, distance_m) : screen_distance(s, distance_m);
-    surface = vec4(spread, max(s.roughness, 1.0 / 255.0), pack_hit_distance(distance_m));
+    surface = vec4(spread, max(s.roughness, 1.0 / 255.0), pack_hit_distance(distance_m / reflection.unit_m));
     color *= s.share;
   }
   imageStore(color_image, texel, color);

@@ -45,9 +45,9 @@ ScreenRay screen_ray(vec3 origin, vec3 direction) {
 }
 
 // Distance in metres along the ray at s.
-float distance_at(ScreenRay ray, float s) { return ray.length_m * (s * ray.w0 / max(mix(ray.w1, ray.w0, s), 1e-9)); }
+float distance_at(ScreenRay ray, float s) { return ray.length_m * (s * ray.w0 / max(mix(ray.w1, ray.w0, s), 1e-30)); }
 // The inverse of distance_at, as a share of the length.
-float place_of(ScreenRay ray, float share) { return share * ray.w1 / max(mix(ray.w0, ray.w1, share), 1e-9); }
+float place_of(ScreenRay ray, float share) { return share * ray.w1 / max(mix(ray.w0, ray.w1, share), 1e-30); }
 
 float depth_under(vec2 pixel) {
   return texelFetch(depth_image, clamp(ivec2(pixel), ivec2(0), ivec2(view.size) - 1), 0).r;
@@ -59,7 +59,7 @@ float depth_under(vec2 pixel) {
 float behind_m(ScreenRay ray, float s) {
   vec3 at = ray.from + ray.step * s;
   float seen = depth_under(at.xy);
-  float metres = surface_view_depth(view, max(at.z, 1e-9)) - surface_view_depth(view, max(seen, 1e-9));
+  float metres = surface_view_depth(view, max(at.z, 1e-30)) - surface_view_depth(view, max(seen, 1e-30));
   bool left = any(notEqual(floor(at.xy), floor(ray.from.xy)));
   return left && seen > 0.0 ? metres : -1.0;
 }
@@ -70,7 +70,7 @@ const vec2 kNoHit = vec2(1.0, 0.0);
 // Constant step in metres. A surface is met where the ray passes behind it by no more than its thickness or one step.
 vec2 march_constant(ScreenRay ray, float depth_m) {
   float count = max(1.0, floor(reflection.k1 * exp(-reflection.k2 * depth_m)));
-  float step_depth_m = abs(surface_view_depth(view, max(ray.from.z + ray.step.z, 1e-9)) - depth_m) / count;
+  float step_depth_m = abs(surface_view_depth(view, max(ray.from.z + ray.step.z, 1e-30)) - depth_m) / count;
   float before = 0.0, at = 0.0, i = 0.0;
   bool met = false;
   do {
@@ -101,8 +101,8 @@ vec2 march_hierarchical(ScreenRay ray) {
     float nearest = texelFetch(depth_bounds, ivec2(tile), 0).y;
     bool free = min(at.z, ray.from.z + ray.step.z * leave) > nearest;
     float behind = behind_m(ray, s);
-    float slope_m =
-        abs(surface_view_depth(view, max(at.z + ray.step.z * fine, 1e-9)) - surface_view_depth(view, max(at.z, 1e-9)));
+    float slope_m = abs(surface_view_depth(view, max(at.z + ray.step.z * fine, 1e-30)) -
+                        surface_view_depth(view, max(at.z, 1e-30)));
     met = !free && behind > 0.0 && behind < reflection.thickness_m + slope_m;
     reached = s;
     float next = free ? leave : s + fine;

@@ -83,5 +83,5 @@ void main() {
   Hit hit = Hit(vec3(0.0), 0.0, 0.0);
   if (s.share > 0.0) hit = trace(s);
   imageStore(color_image, texel, vec4(hit.confidence > 0.0 ? hit.light : vec3(0.0), hit.confidence));
-  imageStore(distance_image, texel, vec4(pack_hit_distance(hit.distance_m), 0.0, 0.0));
+  imageStore(distance_image, texel, vec4(pack_hit_distance(hit.distance_m / reflection.unit_m), 0.0, 0.0));
 }

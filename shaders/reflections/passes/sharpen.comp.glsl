@@ -45,8 +45,8 @@ vec3 fogged(vec3 light, float share, float distance_m) {
   return light * through + reflection.fog_radiance.rgb * (share * (1.0 - through));
 }
 
-const float kLeastApart_m = 0.05;  // distance in depth up to which a pixel shows the hit,
-const float kApartShare = 0.03;    // or this share of the ray's length
+const float kLeastApart = 0.05;  // distance in depth, in units, up to which a pixel shows the hit,
+const float kApartShare = 0.03;  // or this share of the ray's length
 
 // The lit picture where a ray of this length ends. share: 0 if the picture shows something else there.
 vec3 light_at_hit(vec3 origin, vec3 ray, float length_m, out float share) {
@@ -57,8 +57,9 @@ vec3 light_at_hit(vec3 origin, vec3 ray, float length_m, out float share) {
       clip.w > view.near_m * 0.5 && all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, vec2(view.size)));
   ivec2 pixel = clamp(ivec2(at), ivec2(0), ivec2(view.size) - 1);
   float seen = texelFetch(depth_image, pixel, 0).r;
-  float apart_m = abs(surface_view_depth(view, max(seen, 1e-9)) - view_depth(view, hit));
-  bool there = seen > 0.0 && apart_m < min(max(kLeastApart_m, kApartShare * length_m), reflection.thickness_m);
+  float apart_m = abs(surface_view_depth(view, max(seen, 1e-30)) - view_depth(view, hit));
+  bool there =
+      seen > 0.0 && apart_m < min(max(kLeastApart * reflection.unit_m, kApartShare * length_m), reflection.thickness_m);
   bool faces = dot(unpack_normal(texelFetch(normal_image, pixel, 0).y), ray) < 0.0;
   share = inside && there && faces ? 1.0 : 0.0;
   return clean(texelFetch(lit_image, pixel, 0).rgb);
@@ -68,7 +69,7 @@ vec4 reflection_of(ivec2 pixel, ivec2 texel) {
   float depth = texelFetch(depth_image, pixel, 0).r;
   uvec2 normals = texelFetch(normal_image, pixel, 0).xy;
   vec4 material = texelFetch(material_image, pixel, 0);
-  vec3 position = relative_position(view, vec2(pixel), max(depth, 1e-9)), normal = unpack_normal(normals.x);
+  vec3 position = relative_position(view, vec2(pixel), max(depth, 1e-30)), normal = unpack_normal(normals.x);
   if (mirror_share(unpack_normal(normals.y).y, material.x, material.w) <= 0.0) return vec4(0.0);
   Mirrored m = mirrored_at(pixel, position, normal);
   if (kScreenSpace != 0u) {

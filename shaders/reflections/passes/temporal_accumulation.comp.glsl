@@ -53,7 +53,7 @@ void main() {
   vec4 color = vec4(0.0);
   if (s.share > 0.0) {
     color = texelFetch(color_image, texel, 0);
-    vec2 place = previous_place(s, unpack_hit_distance(texelFetch(surface_image, texel, 0).zw));
+    vec2 place = previous_place(s, reflection.unit_m * unpack_hit_distance(texelFetch(surface_image, texel, 0).zw));
     bool known = share < 1.0 && all(greaterThan(place, vec2(0.0))) && all(lessThan(place, vec2(1.0)));
     // Each texel of the previous image shows the first pixel of its block.
     vec2 scaled = ((place * vec2(view.size) - 0.5) / float(reflection.scale) + 0.5) / vec2(reflection.size);

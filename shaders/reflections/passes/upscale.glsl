@@ -28,7 +28,7 @@ Mirrored fetch_mirrored(vec2 at) {
   ivec2 base = ivec2(texel), last = ivec2(reflection.size) - 1;
   vec2 part = texel - vec2(base);
   vec4 sum = vec4(0.0);
-  float total = 0.0, most = 0.0, nearest_m = 0.0, mean_m = 0.0, least_m = 1e9, greatest_m = 0.0;
+  float total = 0.0, most = 0.0, nearest_m = 0.0, mean_m = 0.0, least_m = 1e30, greatest_m = 0.0;
   for (int i = 0; i < 4; ++i) {
     ivec2 offset = ivec2(i & 1, i >> 1);
     ivec2 place = min(base + offset, last);
@@ -38,7 +38,7 @@ Mirrored fetch_mirrored(vec2 at) {
     vec4 color = texelFetch(color_image, place, 0);
     sum += weight > 0.0 ? weight * color : vec4(0.0);  // texels of other tiles hold no values
     total += weight;
-    float distance_m = unpack_hit_distance(surface.zw);
+    float distance_m = reflection.unit_m * unpack_hit_distance(surface.zw);
     nearest_m = weight > most ? distance_m : nearest_m;
     mean_m += weight * distance_m;
     least_m = weight > 1e-3 ? min(least_m, distance_m) : least_m;

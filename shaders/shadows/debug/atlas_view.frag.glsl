@@ -19,7 +19,7 @@ void main() {
   vec2 at = gl_FragCoord.xy - face.corner;  // pixels
   vec2 texel = clamp(at / face.pixels * face.size, vec2(0.0), vec2(face.size - 1.0));
   float depth = texelFetch(atlas, ivec2(face.origin + texel), 0).r;
-  float share = face.near_m > 0.0 ? face.near_m / max(depth, 1e-9) / max(face.far_m, face.near_m) : 1.0 - depth;
+  float share = face.near_m > 0.0 ? face.near_m / max(depth, 1e-30) / max(face.far_m, face.near_m) : 1.0 - depth;
   vec3 color = depth > 0.0 ? vec3(mix(1.0, 0.02, sqrt(clamp(share, 0.0, 1.0)))) : vec3(0.0, 0.01, 0.06);
   bool border = any(lessThan(at, vec2(1.0))) || any(greaterThan(at, vec2(face.pixels - 1.0)));
   if (border) color = face.drawn > 0.0 ? vec3(0.8, 0.25, 0.0) : vec3(0.0, 0.3, 0.05);

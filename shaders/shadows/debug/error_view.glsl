@@ -60,7 +60,7 @@ vec2 directional_differences(uvec2 pixel, vec3 normal, ShadowReceiver r) {
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   float depth = texelFetch(depth_image, pixel, 0).r;
-  vec3 position = relative_position(view, gl_FragCoord.xy - 0.5, max(depth, 1e-9));
+  vec3 position = relative_position(view, gl_FragCoord.xy - 0.5, max(depth, 1e-30));
   uvec2 normals = texelFetch(normal_image, pixel, 0).xy;
   vec3 normal = unpack_normal(normals.x);
   ShadowReceiver r =

@@ -31,7 +31,7 @@ layout(location = 1) out vec4 out_visibility;
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   float depth = texelFetch(depth_image, pixel, 0).r;
-  vec3 position = relative_position(view, gl_FragCoord.xy - 0.5, max(depth, 1e-9));
+  vec3 position = relative_position(view, gl_FragCoord.xy - 0.5, max(depth, 1e-30));
   uvec2 normals = texelFetch(normal_image, pixel, 0).xy;
   ShadowReceiver r =
       pixel_receiver(position, unpack_normal(normals.y), texelFetch(base_color_image, pixel, 0).a > 0.5, pixel);

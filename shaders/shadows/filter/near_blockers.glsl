@@ -143,7 +143,7 @@ struct NearLine {
 // Adds a sample. over: as in NearLine. Neighbouring samples of one surface cover what lies between their points.
 // Otherwise the edge of a surface is taken to be between them.
 void add_near_sample(inout NearLine line, float at, float over, float k) {
-  float middle = mix(line.at, at, kNearEdge), radius = at / (k * max(over, 1e-20));
+  float middle = mix(line.at, at, kNearEdge), radius = at / (k * max(over, 1e-37));
   float less = min(over, line.over), more = max(over, line.over);
   bool joined = less > kNearJoin * more;
   if (joined) {

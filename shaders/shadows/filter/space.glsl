@@ -92,14 +92,19 @@ float disc_share(float u) {
 // Texel coordinates, depths, slopes and thresholds are precise: comparisons with texels must come out alike in every
 // shader, so that deferred shadows equal monolithic ones on every device.
 
+// Oriented bias covers the rounding of positions and maps. In metres it holds 5 m from a local light, and in a cascade
+// with texels of 1 cm; elsewhere it grows with that distance, and with the texel.
+float local_bias_depth(float depth) { return 0.2 * depth; }
+float cascade_bias_depth(float texel_m, float depth_m) { return 100.0 * texel_m / depth_m; }
+
 // Sets threshold, least and horizon, from depth, slope and live, which must be set. Clears slope if there is no usable
 // receiver plane, and live if the whole emitter is below the plane. facing_sine: sine of the angle between the light's
 // rays and the surface, negative when the surface faces the light. emitter_sine: sine of half the angle that the
-// emitter covers. depth_per_m: depth per metre toward the light.
-void set_threshold(inout ShadowPoint p, float facing_sine, float emitter_sine, float depth_per_m, bool subsurface) {
+// emitter covers. bias_depth: depth per metre of bias, see local_bias_depth() and cascade_bias_depth().
+void set_threshold(inout ShadowPoint p, float facing_sine, float emitter_sine, float bias_depth, bool subsurface) {
   float quantum = max(shadow_block.depth_quantum, abs(p.depth) * shadow_block.relative_quantum);
   // Hardware bias is already in the map, but the threshold needs at least a step of the map's format.
-  float bias = kBias != 0u ? max(shadow_block.bias_m * (subsurface ? 4.0 : 1.0) * depth_per_m, quantum)
+  float bias = kBias != 0u ? max(shadow_block.bias_m * (subsurface ? 4.0 : 1.0) * bias_depth, quantum)
                            : shadow_block.depth_quantum;
   // Where the receiver plane cuts the emitter, the part above the plane decides.
   bool toward = subsurface || kBias == 0u || facing_sine < max(emitter_sine, kFacingSine);
@@ -229,7 +234,7 @@ ShadowPoint local_shadow_point(LocalShadow l, ShadowReceiver r) {
   // A spot's emitter is a disc parallel to its map. A cube's emitter is a sphere: off the axis, the map stretches its
   // outline along the radius, and a round kernel can only have the same area.
   if (cube) p.scale *= sqrt(distance / z);
-  set_threshold(p, facing / distance, 0.5 * max(first.z, 0.0) / distance, p.depth / z, r.subsurface);
+  set_threshold(p, facing / distance, 0.5 * max(first.z, 0.0) / distance, local_bias_depth(p.depth), r.subsurface);
   return p;
 }
 
@@ -256,10 +261,10 @@ struct SunReceiver {
   ShadowPoint point;
   vec4 position;
   vec3 face_normal;
-  float facing;       // cosine between the face normal and the light's direction
-  float least_sine;   // result of least_sine()
-  float penumbra;     // CascadeRow::penumbra_m_per_m
-  float depth_per_m;  // depth per metre in the cascade that it lies in
+  float facing;      // cosine between the face normal and the light's direction
+  float least_sine;  // result of least_sine()
+  float penumbra;    // CascadeRow::penumbra_m_per_m
+  float bias_depth;  // cascade_bias_depth() of the cascade that it lies in
 };
 
 SunReceiver sun_receiver(vec3 light_direction, float penumbra_m_per_m, ShadowReceiver r) {
@@ -282,16 +287,16 @@ void try_cascade(inout SunReceiver s, ShadowCascade c, bool wanted) {
     s.point.size = c.size;
     s.point.at = at.xy;
     s.point.depth = at.z;
-    s.depth_per_m = 1.0 / c.depth_m;
+    s.bias_depth = cascade_bias_depth(c.texel_m, c.depth_m);
     s.point.scale = s.penumbra * c.depth_m / c.texel_m;
     precise vec2 slope = vec2(dot(s.face_normal, c.row_u.xyz), dot(s.face_normal, c.row_v.xyz)) *
-                         (c.texel_m * c.texel_m * s.depth_per_m / along);
+                         (c.texel_m * c.texel_m / c.depth_m / along);
     s.point.slope = slope;
   }
 }
 
 ShadowPoint sun_shadow_point(SunReceiver s, bool subsurface) {
-  set_threshold(s.point, s.facing, 0.5 * s.penumbra, s.depth_per_m, subsurface);
+  set_threshold(s.point, s.facing, 0.5 * s.penumbra, s.bias_depth, subsurface);
   return s.point;
 }
 

@@ -14,14 +14,14 @@ void set_facing(inout TileInFace f, vec2 sines, vec2 emitter, bool subsurface) {
   f.turned_away = kBias != 0u && !subsurface && sines.x - slack > kFacingSine + emitter.x;
 }
 
-// Sets the least and greatest bias. depth_per_m: least and greatest depth per metre.
-void set_biases(inout TileInFace f, vec2 depth_per_m, bool subsurface) {
+// Sets the least and greatest bias. bias_depth: least and greatest depth per metre of bias.
+void set_biases(inout TileInFace f, vec2 bias_depth, bool subsurface) {
   float relative = f.nearest * shadow_block.relative_quantum;
   float quantum = max(shadow_block.depth_quantum, relative);
-  f.least_bias = kBias != 0u ? max(shadow_block.bias_m * depth_per_m.x,
+  f.least_bias = kBias != 0u ? max(shadow_block.bias_m * bias_depth.x,
                                    max(shadow_block.depth_quantum, f.farthest * shadow_block.relative_quantum))
                              : shadow_block.depth_quantum;
-  f.most_bias = kBias != 0u ? max(shadow_block.bias_m * (subsurface ? 4.0 : 1.0) * depth_per_m.y, quantum)
+  f.most_bias = kBias != 0u ? max(shadow_block.bias_m * (subsurface ? 4.0 : 1.0) * bias_depth.y, quantum)
                             : shadow_block.depth_quantum;
 }
 
@@ -59,7 +59,7 @@ void tile_in_cascade(TileBounds t, uint light, vec3 direction, ShadowCascade c, 
   f.scale = penumbra * c.depth_m / c.texel_m * 1.00001;
   float along = dot(t.normal, direction);
   set_facing(f, vec2(along - t.spread, along + t.spread), vec2(0.5 * penumbra), t.subsurface);
-  set_biases(f, vec2(texel_depth), t.subsurface);
+  set_biases(f, vec2(cascade_bias_depth(c.texel_m, c.depth_m)), t.subsurface);
   bool one_side = abs(along) > 2.0 * t.spread + 1e-5;
   along = one_side ? along : 1.0;
   float scale = c.texel_m * c.texel_m * texel_depth / along;
@@ -146,18 +146,18 @@ bool tile_in_local_face(TileBounds t, LocalFaces l, int face, bool margins, out 
     least_z = min(least_z, local.z);
     most_z = max(most_z, local.z);
     outermost = max(outermost, max(abs(local.x), abs(local.y)) - local.z * up.w);
-    vec2 tangent = local.xy / max(local.z, 1e-9);
+    vec2 tangent = local.xy / max(local.z, near);
     texels[i] = vec2(tangent.x, -tangent.y) / texel + 0.5 * first.w;
-    most_stretch = max(most_stretch, distance / max(local.z, 1e-9));
+    most_stretch = max(most_stretch, distance / max(local.z, near));
     most_r = max(most_r, distance);
   }
-  least_r = max(length(t.center - light_position) - t.radius, 1e-9);
+  least_r = max(length(t.center - light_position) - t.radius, near);
   f.origin = cube_face_origin(l.light, face);
   f.size = first.w;
   set_texels(texels, 1.0 / 16.0, f);
   const float slack = 4e-6;
-  f.nearest = near / max(least_z, 1e-9) * (1.0 + slack);
-  f.farthest = near / max(most_z, 1e-9) * (1.0 - slack);
+  f.nearest = near / max(least_z, near) * (1.0 + slack);
+  f.farthest = near / max(most_z, near) * (1.0 - slack);
   f.scale = diameter / (near * texel) * (f.cube ? sqrt(most_stretch) : 1.0) * (1.0 + slack);
   f.surrounded = outermost < 0.0;
   f.clear = least_r > 1.74 * near;  // 1.74 > √3: the corners of a cube's near planes are farthest away
@@ -171,14 +171,14 @@ bool tile_in_local_face(TileBounds t, LocalFaces l, int face, bool margins, out 
   bool one_side = heights.x * heights.y > 0.0 && closest > 2.0 * tilted;
   set_facing(f, vec2(sines.x / (sines.x > 0.0 ? most_r : least_r), sines.y / (sines.y > 0.0 ? least_r : most_r)),
              0.5 * diameter / vec2(least_r, most_r), t.subsurface);
-  set_biases(f, vec2(f.farthest / most_z, f.nearest / max(least_z, 1e-9)), t.subsurface);
+  set_biases(f, vec2(local_bias_depth(f.farthest), local_bias_depth(f.nearest)), t.subsurface);
   float lowest = abs(heights.x) > abs(heights.y) ? heights.x : heights.y;
   vec3 normal = t.normal * axes;
   vec3 plane = normal * (near / (one_side ? lowest : 1.0));  // depth = dot(plane, (tangent, 1))
   f.plane.yz = vec2(plane.x, -plane.y) * texel;
   f.plane.x = kReceiverPlane == 0u ? f.farthest : plane.z - 0.5 * f.size * (f.plane.y + f.plane.z);
-  float per_height = 2.0 * near * texel / max(closest - tilted, 1e-9);
-  f.tilt = kReceiverPlane == 0u ? 0.0 : per_height * t.spread * (1.0 + most_r / max(closest, 1e-9));
+  float per_height = 2.0 * near * texel / max(closest - tilted, near);
+  f.tilt = kReceiverPlane == 0u ? 0.0 : per_height * t.spread * (1.0 + most_r / max(closest, near));
   f.slope =
       kReceiverPlane == 0u ? 0.0 : 0.5 * per_height * (abs(normal.x) + abs(normal.y) + 2.0 * t.spread) * (1.0 + slack);
   f.plane.yz = kReceiverPlane == 0u ? vec2(0.0) : f.plane.yz;

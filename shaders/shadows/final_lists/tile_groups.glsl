@@ -109,7 +109,7 @@ TileGroups make_tile_groups(ViewConstants view, sampler2D depth_image, usampler2
       const ivec2 offsets[4] = ivec2[](ivec2(0, 1), ivec2(1, 1), ivec2(1, 0), ivec2(0, 0));  // in the order of a gather
       ivec2 at = quad + offsets[k];
       bool surface = depths[k] > 0.0 && all(lessThan(at, ivec2(view.size)));
-      vec3 position = relative_position(view, vec2(at), max(depths[k], 1e-9));
+      vec3 position = relative_position(view, vec2(at), max(depths[k], 1e-30));
       TilePixel p = TilePixel(uvec2(at - first), depths[k], position,
                               receiver_at(view, at, position, unpack_normal(normals[k]), flags[k] > 0.5),
                               unpack_normal(shading_normals[k]), flags[k] > 0.5);

@@ -155,6 +155,9 @@ Texels first_texels(uvec2 at1, float gap) {
   float depths[4] = float[4](gathered.w, gathered.z, gathered.x, gathered.y);
   Texels texels = kNone;
   for (uint one = 0u; one < 4u; ++one) {
+#ifdef GLOAM_SHADOW_ATLAS_STEPS
+    depths[one] *= face.depth_scale;
+#endif
     float depth = held_depth(depths[one]);
     store_depth(0u, at1 * 2u + uvec2(one & 1u, one >> 1), depth);
     add(texels, depth, vec2(depth), gap);

@@ -35,6 +35,7 @@ struct ShadowMipGroup {
   uint on_background;  // 1: the first run merges the image of backgrounds
   float gap;           // coverage: greatest depth step of one surface per texel of mip 0, as a share of its distance
                        // (orthographic: a depth)
+  float depth_scale;   // 16-bit maps: factor of depths in the scratch image; what is then above 1 is stored as 1
 };
 
 /// One dispatch of overlay_copy.comp: parts of any number of faces.

@@ -219,7 +219,7 @@ TEST(CloseupSystems, lights_that_cast_no_shadow_have_no_pairs) {
   w.world.add(w.add_light(at(0, 3, 0)), ShadowCaster{false, 0});
   w.world.get<Light>(w.add_light(at(0, 3, 0))).intensity = 0.0f;
   w.world.get<Light>(w.add_light(at(0, 3, 0))).intensity = std::numeric_limits<float>::quiet_NaN();
-  w.add_light(at(0.52, 0, 0), LightKind::point, 0.04f);
+  w.add_light(at(0.6, 0, 0), LightKind::point, 0.04f);
   w.add_light(at(std::nan(""), 0, 0));
   w.run();
   EXPECT_EQ(w.pairs(), 0u);

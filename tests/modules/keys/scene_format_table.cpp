@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "tests/modules/keys/scene_format_table.h"
 
+#include <gtest/gtest.h>
+
+#include "engine/scene/units.h"
 #include "modules/closeups/components.h"
 #include "modules/depth_of_field/components.h"
 #include "modules/reflections/components.h"
@@ -260,6 +263,15 @@ std::vector<Line> camera_material_and_scene_lines() {
        number(-2),
        {text("auto"), number(1e6)},
        environment(&SceneEnvironment::exposure_ev100, -2.0f)},
+      {scene,
+       "gloam.scale",
+       "engine",
+       KeyType::number,
+       "m",
+       "1",
+       number(0.01),
+       {text("cm"), number(0), number(-1)},
+       [](const Place& place, bool wanted) { EXPECT_EQ(metres_per_unit(place.world), wanted ? 0.01 : 1.0); }},
   };
 }
 

@@ -15,6 +15,9 @@
 namespace gloam::gltf {
 namespace {
 
+/// Depths of a perspective camera are near / depth: with less, those of far surfaces are no normal floats.
+constexpr double kLeastNear_m = 1e-20;
+
 Result<Camera> import_camera(const CameraSource& source) {
   Camera camera;
   camera.orthographic = source.orthographic;
@@ -30,6 +33,7 @@ Result<Camera> import_camera(const CameraSource& source) {
     camera.fov_y = static_cast<float>(source.yfov);  // rounding may give 0 or π
     if (!(camera.fov_y > 0.0f && camera.fov_y < kPi)) return refuse("yfov must be in 0…π");
     if (!(static_cast<float>(source.znear) > 0.0f)) return refuse("znear must be > 0");
+    if (source.znear < kLeastNear_m) return refuse("znear must be at least 1e-20: depths would be 0");
   }
   camera.near_m = static_cast<float>(source.znear);
   const bool endless = !source.orthographic && source.zfar > double{std::numeric_limits<float>::max()};

@@ -248,14 +248,24 @@ TEST(VisibilityTracing, a_world_without_lights_gives_nothing) {
   EXPECT_EQ(traced.noise, 0.0);
 }
 
-TEST(VisibilityTracing, the_bulb_round_an_emitter_does_not_hide_it) {
-  VisibilityScene scene;
-  scene.light({.kind = LightKind::point, .intensity = 100.0f, .width_m = 0.1f}, {0, 2, 0});
-  dmat4 matrix(kEmitterClearance_m * 0.9);
-  matrix[3] = dvec4(0.0, 2.0, 0.0, 1.0);
-  scene.maker.draw(scene.maker.mesh(ball()), matrix);
-  const TracedVisibility traced = scene.trace(16);
-  EXPECT_TRUE(std::ranges::all_of(traced.visibility, [](std::uint8_t seen) { return seen == 255; }));
+TEST(VisibilityTracing, a_dark_ball_round_a_lamp_hides_it_however_small) {
+  for (const double radius : {1e-3, 0.045, 0.5}) {
+    VisibilityScene scene;
+    scene.light({.kind = LightKind::point, .intensity = 100.0f}, {0, 2, 0});
+    dmat4 matrix(radius);
+    matrix[3] = dvec4(0.0, 2.0, 0.0, 1.0);
+    scene.maker.draw(scene.maker.mesh(ball()), matrix);
+    const TracedVisibility traced = scene.trace(16);
+    ASSERT_FALSE(traced.visibility.empty());
+    std::size_t judged = 0, seen = 0;
+    for (std::size_t i = 0; i < traced.visibility.size(); ++i) {
+      if ((traced.judged[i / 8] >> (i % 8) & 1) == 0) continue;
+      ++judged;
+      seen += traced.visibility[i] != 0 ? 1 : 0;
+    }
+    EXPECT_GT(judged, 100u);
+    EXPECT_EQ(seen, 0u) << radius;
+  }
 }
 
 TEST(VisibilityTracing, a_surface_does_not_shadow_itself_and_hides_what_is_behind_it) {

@@ -12,9 +12,9 @@ namespace {
 const double kRoot3 = std::sqrt(3.0);
 
 /// is_bulb() for a cube around `middle` and a light at a far place.
-bool cube_is_bulb(const dvec3& middle, double half, double emitter_radius_m, bool emissive = true) {
+bool cube_is_bulb(const dvec3& middle, double half, double bulb_radius_m, bool emissive = true) {
   const dvec3 light(100e3, -3.0, 20e3);
-  return is_bulb(light, emitter_radius_m, light + middle - half, light + middle + half, emissive ? half * kRoot3 : 0.0);
+  return is_bulb(light, bulb_radius_m, light + middle - half, light + middle + half, emissive ? half * kRoot3 : 0.0);
 }
 
 TEST(Bulbs, are_emissive_meshes_in_or_at_the_emitter) {
@@ -32,13 +32,23 @@ TEST(Bulbs, are_not_much_larger_than_the_emitter) {
   EXPECT_FALSE(cube_is_bulb(dvec3(0.0), 0.51 / kRoot3, 0.1)) << "a shining room around the light";
 }
 
-TEST(Bulbs, of_lights_without_width_are_as_large_as_what_never_blocks) {
-  EXPECT_TRUE(cube_is_bulb(dvec3(0.0), 0.08, 0.0));
-  EXPECT_TRUE(cube_is_bulb(dvec3(0.0), 0.08, 0.01));
-  EXPECT_FALSE(cube_is_bulb(dvec3(0.0), 0.2, 0.0));
+TEST(Bulbs, of_lights_without_width_scale_with_the_range) {
+  for (const double unit : {1e-3, 1.0, 1e3}) {
+    Light light;
+    light.kind = LightKind::point;
+    light.range_m = static_cast<float>(10.0 * unit);
+    EXPECT_TRUE(cube_is_bulb(dvec3(0.0), 0.08 * unit, bulb_radius(light)));
+    EXPECT_FALSE(cube_is_bulb(dvec3(0.0), 0.2 * unit, bulb_radius(light)));
+    light.width_m = static_cast<float>(0.2 * unit);
+    EXPECT_TRUE(cube_is_bulb(dvec3(0.0), 0.2 * unit, bulb_radius(light)));
+  }
 }
 
-TEST(Bulbs, belong_to_local_lights_only) { EXPECT_FALSE(cube_is_bulb(dvec3(0.0), 0.02, -1.0)); }
+TEST(Bulbs, belong_to_local_lights_only) {
+  Light sun;
+  sun.kind = LightKind::directional;
+  EXPECT_FALSE(cube_is_bulb(dvec3(0.0), 0.02, bulb_radius(sun)));
+}
 
 }  // namespace
 }  // namespace gloam

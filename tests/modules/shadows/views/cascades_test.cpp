@@ -143,7 +143,7 @@ TEST(CascadeSpheres, take_a_distance_where_casters_are_not_known) {
   for (const CasterBounds& unknown : {CasterBounds{}, bad}) {
     EXPECT_FALSE(unknown.known());
     const RenderView view = view_of(camera_at({5, 1, 5}, 1.0));
-    EXPECT_EQ(shadow_distance(view, unknown), kDefaultShadowDistance);
+    EXPECT_EQ(shadow_distance(view, unknown), kDefaultShadowDistance * static_cast<double>(view.near_m));
     const auto spheres = cascade_spheres(view, unknown, 4);
     ASSERT_EQ(spheres.size(), 4u);
     for (const double x : {-0.99, 0.0, 0.99}) {
@@ -152,9 +152,14 @@ TEST(CascadeSpheres, take_a_distance_where_casters_are_not_known) {
   }
 }
 
-TEST(CascadeSpheres, reach_past_all_casters_up_to_a_kilometre) {
+TEST(CascadeSpheres, reach_past_all_casters_up_to_a_limit_that_scales) {
   const RenderView inside = view_of(camera_at({0, 0, 0}));
-  EXPECT_EQ(shadow_distance(inside, box({0, 0, 0}, dvec3(1e5))), kMostShadowDistance);
+  const double most = kMostNearPlanes * static_cast<double>(inside.near_m);
+  CasterBounds wide = box({0, 0, 0}, dvec3(1e5));
+  EXPECT_EQ(shadow_distance(inside, wide), most);
+  wide.log2_sizes = 3.0 * 7.0;  // three casters of 128 m: the near plane says less about the scene than they do
+  wide.sized = 3;
+  EXPECT_EQ(shadow_distance(inside, wide), kMostCasterSizes * 128.0);
   EXPECT_GE(shadow_distance(inside, box({0, 0, 40}, dvec3(50.0))), 40.0 + std::sqrt(3.0) * 50.0);
   EXPECT_GE(shadow_distance(view_of(camera_at({0, 0, 5e4})), box({0, 0, 0}, dvec3(1.0))), 5e4);
 }

@@ -56,11 +56,11 @@ double ClassifyOracle::plane_depth(int face, const glm::dvec2& at, const Classif
   return 1.0 - z / pose.depth_m;
 }
 
-void ClassifyOracle::set_bias(Receiver& r, const ClassifyPixel& pixel, double depth_per_m) const {
+void ClassifyOracle::set_bias(Receiver& r, const ClassifyPixel& pixel, double bias_depth) const {
   const double here = plane_depth(r.face, r.at, pixel);
   const double slope = std::abs(plane_depth(r.face, r.at + glm::dvec2(1.0, 0.0), pixel) - here) +
                        std::abs(plane_depth(r.face, r.at + glm::dvec2(0.0, 1.0), pixel) - here);
-  r.bias = bias_m_ * (pixel.subsurface ? 4.0 : 1.0) * depth_per_m * 1.001 + slope / 32.0 + 2e-6 * r.depth + 1e-7;
+  r.bias = bias_m_ * (pixel.subsurface ? 4.0 : 1.0) * bias_depth * 1.001 + slope / 32.0 + 2e-6 * r.depth + 1e-7;
 }
 
 ClassifyOracle::Receiver ClassifyOracle::receive(const ClassifyPixel& pixel) const {
@@ -79,7 +79,9 @@ ClassifyOracle::Receiver ClassifyOracle::receive(const ClassifyPixel& pixel) con
       r.face = face;
       r.at = p.at;
       r.depth = p.depth;
-      set_bias(r, pixel, 1.0 / light_.faces[static_cast<std::size_t>(face)].pose.depth_m);
+      // 2 mm in a map with texels of 1 cm.
+      const auto& map = light_.faces[static_cast<std::size_t>(face)].pose;
+      set_bias(r, pixel, 2.0 * map.half_extent_m / size_ / 0.01 / map.depth_m);
       return r;
     }
     return r;
@@ -101,7 +103,7 @@ ClassifyOracle::Receiver ClassifyOracle::receive(const ClassifyPixel& pixel) con
   r.face = own;
   r.at = p.at;
   r.depth = p.depth;
-  set_bias(r, pixel, p.depth / p.z);
+  set_bias(r, pixel, p.depth / 5.0);  // 2 mm at 5 m
   return r;
 }
 

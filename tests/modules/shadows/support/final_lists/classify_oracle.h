@@ -54,7 +54,7 @@ class ClassifyOracle {
   [[nodiscard]] dvec3 point_of(int face, std::size_t texel, double depth) const;
   [[nodiscard]] double plane_depth(int face, const glm::dvec2& at, const ClassifyPixel& pixel) const;
   [[nodiscard]] Receiver receive(const ClassifyPixel& pixel) const;
-  void set_bias(Receiver& r, const ClassifyPixel& pixel, double depth_per_m) const;
+  void set_bias(Receiver& r, const ClassifyPixel& pixel, double bias_depth) const;
   [[nodiscard]] bool blocks(const ClassifyPixel& pixel, const Receiver& r, int face, std::size_t texel) const;
   [[nodiscard]] bool neighbours_block(const ClassifyPixel& pixel, const Receiver& r, int face, std::size_t texel) const;
   [[nodiscard]] bool hides_emitter(const ClassifyPixel& pixel, const Receiver& r, const dvec3& point) const;

@@ -1,0 +1,162 @@
+# SPDX-FileCopyrightText: The gloam authors
+# SPDX-License-Identifier: MIT
+"""The same scene at another scale, or at another place, gives the same picture."""
+import math
+
+from program_case import ProgramCase, main
+from scene_file import SceneFile, turned
+from window_case import read_png
+
+SCALES = (0.001, 0.01, 100.0, 1000.0)
+PLACES = (10.0, 1e3, 1e6)  # metres from the origin
+
+
+def with_things(**keys):
+    """A floor with a slab, a thin pole and a sheet close above the floor, and a camera that sees it from above."""
+    scene = SceneFile(**keys)
+    gray, red = scene.material(), scene.material((0.6, 0.3, 0.2), 0.5)
+    scene.quad(6.0, gray)
+    scene.box((0.4, 0.5, 0.3), red, at=(-0.7, 0.5, 0.1), rotation=turned(1, 0.4))
+    scene.box((0.03, 0.8, 0.03), red, at=(0.6, 0.8, -0.4))
+    scene.box((0.3, 0.002, 0.2), gray, at=(0.8, 0.05, 0.7))
+    scene.camera((0.3, 1.6, 3.2), turned(0, -0.4))
+    return scene
+
+
+def lamp():
+    scene = with_things()
+    scene.light("point", at=(0.2, 2.1, 0.9), intensity=60, range=9.0, extras={"gloam.light.width": 0.15})
+    return scene
+
+
+def lamp_without_range():
+    scene = with_things()
+    scene.light("point", at=(0.2, 2.1, 0.9), intensity=60)
+    return scene
+
+
+def spot():
+    scene = with_things(exposure=5.0)
+    scene.light("spot", at=(0.4, 2.4, 0.4), intensity=300, cone=0.8, range=8.0, extras={"gloam.light.width": 0.1})
+    return scene
+
+
+def sun():
+    scene = with_things(sky=(0.2, 0.3, 0.4), exposure=4.0)
+    scene.light("directional", rotation=turned(0, -0.9), intensity=30)
+    return scene
+
+
+def closeup():
+    scene = spot()
+    scene.nodes[1]["extras"]["gloam.closeup"] = True
+    scene.light("directional", rotation=turned(0, -0.9), intensity=10, name="moon")
+    return scene
+
+
+def fog():
+    """With a part of the sky."""
+    scene = lamp()
+    scene.nodes[0]["extras"] |= {"gloam.fog.density": 0.15, "gloam.fog.color": [1.0, 1.5, 2.0]}
+    return scene
+
+
+def lens():
+    scene = lamp()
+    scene.nodes[4]["extras"] |= {"gloam.dof.focus": 2.6, "gloam.dof.f_number": 1.0}
+    return scene
+
+
+def puddle():
+    scene = with_things(sky=(0.3, 0.4, 0.6), exposure=4.0)
+    wet = scene.material((0.1, 0.1, 0.1), 0.05, **{"gloam.reflectivity": 0.8})
+    scene.quad(1.5, wet, at=(0.0, 0.002, 0.5))
+    scene.light("point", at=(0.2, 2.1, 0.9), intensity=60, range=9.0)
+    return scene
+
+
+class Scale(ProgramCase):
+    def setUp(self):
+        super().setUp()
+        self.require_device()
+
+    def picture(self, name, scene, *options, **how):
+        scene.write(self.folder / (name + ".gltf"), **how)
+        self.expect(0, "render", name + ".gltf", "--size", "160x108", "--out", name + ".png", *options)
+        return read_png(self.folder / (name + ".png"))
+
+    def same(self, make, *options, scales=SCALES, places=PLACES, physics=False):
+        first = self.picture("first", make(), *options)
+        self.assertGreater(first.mean(), 8)
+        for scale in scales:
+            with self.subTest(scale=scale):
+                most, mean = first.differences(self.picture("scaled", make(), *options, scale=scale, physics=physics))
+                self.assertLessEqual(mean, 0.5, f"most {most}")
+        for place in places:
+            with self.subTest(place=place):
+                other = self.picture("moved", make(), *options, offset=(place, 0.25 * place, -0.5 * place))
+                pixels = [max(abs(a - b) for a, b in zip(first.rgb[i:i + 3], other.rgb[i:i + 3])) for i in range(0, len(first.rgb), 3)]
+                self.assertLessEqual(sum(step > 25 for step in pixels) / len(pixels), 0.001, f"mean {sum(pixels) / len(pixels)}")
+
+    def test_lamp(self):
+        self.same(lamp)
+
+    def test_lamp_without_range(self):
+        self.same(lamp_without_range)
+
+    def test_spot(self):
+        self.same(spot)
+
+    def test_sun(self):
+        self.same(sun)
+
+    def test_closeups(self):
+        self.same(closeup)
+
+    def test_physics(self):
+        # Fog, lenses and candela are physics: gloam.scale says how large a unit is, and their keys stay as they are.
+        for make in (fog, lens):
+            self.same(make, physics=True)
+
+    def test_mirrors(self):
+        self.same(puddle)
+
+    def test_bias_of_rasterisers_and_other_filters(self):
+        for setting in ("shadows.bias=hardware", "shadows.filter=pcss", "shadows.depth=d16"):
+            self.same(lamp, "--set", setting, scales=(0.001, 1000.0), places=())
+
+    def test_the_reference_of_shadows(self):
+        self.same(lamp, "--view", "shadow_reference:key", scales=(0.001, 1000.0))
+
+
+    def test_the_sun_over_ground_of_any_width(self):
+        first = self.picture("first", sun())
+        for half in (50.0, 5e3):
+            with self.subTest(half=half):
+                scene = sun()
+                scene.meshes[0] = ([(x * half / 6.0, y, z * half / 6.0) for x, y, z in scene.meshes[0][0]], *scene.meshes[0][1:])
+                other, rows = self.picture("wide", scene), 60  # the ground of both fills the last rows
+                steps = [abs(a - b) for a, b in zip(first.rgb[-3 * 160 * rows:], other.rgb[-3 * 160 * rows:])]
+                self.assertLessEqual(sum(steps) / len(steps), 0.5)
+
+    def test_near_planes(self):
+        for kind in ("perspective", "orthographic"):
+            def with_near(near, kind=kind):
+                scene = lamp()
+                if kind == "perspective":
+                    scene.cameras[0]["perspective"]["znear"] = near
+                else:
+                    scene.cameras[0] = {"type": kind, kind: {"xmag": 3.0, "ymag": 2.0, "znear": near, "zfar": 50.0}}
+                return scene
+            first = self.picture("first", with_near(0.05))
+            for near in (1e-3, 1e-6, 1e-9, 1e-12, 1e-18):
+                with self.subTest(kind=kind, near=near):
+                    self.assertLessEqual(first.differences(self.picture("near", with_near(near)))[1], 0.5)
+        scene = lamp()
+        scene.cameras[0]["perspective"]["znear"] = 1e-24
+        scene.write(self.folder / "least.gltf")
+        self.expect(3, "render", "least.gltf", says="znear must be at least 1e-20")
+
+
+if __name__ == "__main__":
+    main()
