@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kLogarithmicShare = 0.9;  // weight of the logarithmic split; the rest is uniform
 constexpr double kLeastStart = 1e-3;       // share of the far depth: logarithmic splits begin there or farther
-constexpr double kReachUnknown = 64.0;     // radii to each side of a sphere when the casters' bounds are unknown
+constexpr double kReachUnknown = 256.0;    // radii to each side of a sphere when the casters' bounds are unknown
 constexpr double kMostReach = 16384.0;     // most radii to each side of a sphere: depths keep a texel's precision
 constexpr double kWideCasters = 4096.0;  // radii; of casters that reach farther, only what is beside the sphere counts
 constexpr double kLeastDepth = 1e-3;     // least depth of a box, in radii of its sphere
