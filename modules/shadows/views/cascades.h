@@ -45,7 +45,7 @@ inline constexpr double kDefaultShadowDistance = 1000.0;
 /// Greatest shadow_distance() for a camera inside the casters' bounds: the greater of so many distances of the near
 /// plane and so many usual sizes of casters. A greater distance would leave too few texels for near surfaces.
 inline constexpr double kMostNearPlanes = 10000.0;
-inline constexpr double kMostCasterSizes = 256.0;
+inline constexpr double kMostCasterSizes = 64.0;
 
 /// Distance from the camera to which shadows of directional lights reach. It is the diameter of the casters' bounding
 /// sphere, times the smallest power of two (at least 1) with which all casters are within that distance of the
