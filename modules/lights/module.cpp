@@ -33,7 +33,8 @@ class LightsModule final : public Module {
   void scene_keys(KeyRegistry& registry) const override { add_light_keys(registry); }
 
   void knobs(KnobRegistry& registry) const override {
-    add_knobs(registry, name(), kLightCulling, kLightTileBound, kLightZBins, kFixedLightSlots, kEmitterHighlights, kLightCheck);
+    add_knobs(registry, name(), kLightCulling, kLightTileBound, kLightZBins, kFixedLightSlots, kEmitterHighlights,
+              kLightCheck);
   }
 
   [[nodiscard]] std::vector<MeasureInfo> measures() const override { return light_measures(); }

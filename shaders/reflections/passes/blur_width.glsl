@@ -31,9 +31,7 @@ float blur_unit(ivec2 texel) {
 }
 
 // Width factor of a surface.
-float blur_factor(float roughness) {
-  return reflection.pixel_roughness == 0u ? 1.0 : roughness * roughness;
-}
+float blur_factor(float roughness) { return reflection.pixel_roughness == 0u ? 1.0 : roughness * roughness; }
 
 // Standard deviation of the blur at a texel, in texels. spread, roughness: 0…1.
 float blur_sigma(ivec2 texel, float spread, float roughness) {

@@ -21,9 +21,7 @@ const float kOneSurface = 1.25;  // ratio of distances up to which texels show o
 // Bilinear over the texels that reflect. at: pixels of the view, centres at whole numbers.
 Mirrored fetch_mirrored(vec2 at) {
   vec2 candidate = vec2(reflection.first_candidate & 1u, reflection.first_candidate >> 1);
-  vec2 shown = reflection.scale == 1u      ? vec2(0.0)
-               : reflection.centered != 0u ? vec2(0.5)
-                                                          : candidate;
+  vec2 shown = reflection.scale == 1u ? vec2(0.0) : reflection.centered != 0u ? vec2(0.5) : candidate;
   vec2 texel = clamp((at - shown) / float(reflection.scale), vec2(0.0), vec2(reflection.size - 1u));
   ivec2 base = ivec2(texel), last = ivec2(reflection.size) - 1;
   vec2 part = texel - vec2(base);
