@@ -37,25 +37,27 @@ layout(set = 0, binding = GLOAM_FORWARD_BINDING + 1, scalar) uniform Environment
 #define GLOAM_COOKIES_BINDING (GLOAM_FORWARD_BINDING + 6)
 #endif
 #ifdef GLOAM_FORWARD_RESPONSE
-#define GLOAM_LIGHT_FROM_BEHIND
-#endif
-#include "shaders/lighting/arriving_light.glsl"
-
-// Radiance toward the eye for an illuminance (on a plane that faces the light) from the unit direction `to_light`. A
-// shader's own response may also use light from behind the surface (dot(p.normal, to_light) < 0).
-#ifdef GLOAM_FORWARD_RESPONSE
-vec3 light_response(ShadingPoint p, vec3 to_light, vec3 illuminance, float half_angle);
+vec3 light_response(ShadingPoint p, vec3 to_light, vec3 illuminance);
 #else
-vec3 light_response(ShadingPoint p, vec3 to_light, vec3 illuminance, float half_angle) {
-  return reflected(p, to_light, illuminance, half_angle);
+vec3 light_response(ShadingPoint p, vec3 to_light, vec3 illuminance) {
+  return reflected(p, to_light, illuminance, 0.0);
 }
 #endif
+
+// The response to a light of this apparent radius, in radians; a shader's own response is that to a point.
+vec3 response_to(ShadingPoint p, vec3 to_light, vec3 illuminance, float half_angle) {
+#ifdef GLOAM_FORWARD_RESPONSE
+  return light_response(p, to_light, illuminance);
+#else
+  return reflected(p, to_light, illuminance, half_angle);
+#endif
+}
 
 vec3 forward_light(ShadingPoint p, uint index, LocalLight light) {
   vec3 to_light;
   vec3 illuminance = local_illuminance(light, p.position, to_light);
   illuminance = arriving_local(illuminance, index, light.position, p.normal, to_light);
-  return light_response(p, to_light, illuminance, half_angle_of(index, light.position - p.position));
+  return response_to(p, to_light, illuminance, half_angle_of(index, light.position - p.position));
 }
 
 // Radiance from local lights, summed in ascending order: versions that leave out only lights that do not reach the
@@ -98,7 +100,7 @@ vec3 forward_local_lights(ShadingPoint p, uvec2 pixel) {
 void add_forward_lights(inout vec3 light, ShadingPoint p, uvec2 pixel) {
   for (uint i = 0u; i < lights.directional_count; ++i) {
     DirectionalLight d = lights.directional[i];
-    light += light_response(p, -d.direction, arriving_directional(d.color, i, d.direction, p.normal), d.half_angle);
+    light += response_to(p, -d.direction, arriving_directional(d.color, i, d.direction, p.normal), d.half_angle);
   }
   light += forward_local_lights(p, pixel);
 }

@@ -6,6 +6,7 @@
 #include "shaders/common/prelude.h"
 
 #define GLOAM_MAX_LOCAL_LIGHTS 1024
+#define GLOAM_EMITTER_ROWS 256  // GLOAM_MAX_LOCAL_LIGHTS / 4
 #define GLOAM_MAX_DIRECTIONAL_LIGHTS 16
 #define GLOAM_LIGHT_GROUPS 32          // words of 32 lights in a mask, without the group word
 #define GLOAM_MASK_WORDS 33            // words of a light mask: group word (which of the 32 words are not 0), 32 words
@@ -42,7 +43,7 @@ struct LightBlock {
   uint reserved1;
   DirectionalLight directional[GLOAM_MAX_DIRECTIONAL_LIGHTS];
   LocalLight local[GLOAM_MAX_LOCAL_LIGHTS];
-  vec4 emitter_radius[GLOAM_MAX_LOCAL_LIGHTS / 4];  // of highlights, metres, four lights an item; 0: a point
+  vec4 emitter_radius[GLOAM_EMITTER_ROWS];  // of highlights, metres, four lights an item; 0: a point
 };
 
 /// Layout of the view's light lists in their buffers. zBins: words [0, z_bin_count) are the standard set, the next

@@ -28,7 +28,7 @@ layout(set = 0, binding = GLOAM_PARTICLE_LIGHT_BINDING + 3) uniform sampler3D ba
 #include "shaders/lighting/forward_lights_api.glsl"
 
 // p.normal: n. p.diffuse: albedo / 4π.
-vec3 light_response(ShadingPoint p, vec3 to_light, vec3 illuminance, float half_angle) {
+vec3 light_response(ShadingPoint p, vec3 to_light, vec3 illuminance) {
   return illuminance * p.diffuse * (1.0 + dot(p.normal, to_light));
 }
 
@@ -49,7 +49,7 @@ vec3 one_light(ShadingPoint p, uint light) {
   if ((light & GLOAM_PARTICLE_DIRECTIONAL) == 0u) return forward_light(p, light, lights.local[light]);
   uint index = light & ~GLOAM_PARTICLE_DIRECTIONAL;
   DirectionalLight d = lights.directional[index];
-  return light_response(p, -d.direction, arriving_directional(d.color, index, d.direction, p.normal), d.half_angle);
+  return light_response(p, -d.direction, arriving_directional(d.color, index, d.direction, p.normal));
 }
 
 // Radiance towards the eye of an opaque particle of the emitter. outward: n for forward = 1.
