@@ -37,11 +37,14 @@ layout(set = 0, binding = GLOAM_FORWARD_BINDING + 1, scalar) uniform Environment
 #define GLOAM_COOKIES_BINDING (GLOAM_FORWARD_BINDING + 6)
 #endif
 #ifdef GLOAM_FORWARD_RESPONSE
+#define GLOAM_LIGHT_FROM_BEHIND
+#endif
+#include "shaders/lighting/arriving_light.glsl"
+
+// Radiance toward the eye for an illuminance (on a plane that faces the light) from the unit direction `to_light`. A
+// shader's own response may also use light from behind the surface (dot(p.normal, to_light) < 0).
+#ifdef GLOAM_FORWARD_RESPONSE
 vec3 light_response(ShadingPoint p, vec3 to_light, vec3 illuminance);
-#else
-vec3 light_response(ShadingPoint p, vec3 to_light, vec3 illuminance) {
-  return reflected(p, to_light, illuminance, 0.0);
-}
 #endif
 
 // The response to a light of this apparent radius, in radians; a shader's own response is that to a point.

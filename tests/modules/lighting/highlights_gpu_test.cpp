@@ -48,7 +48,7 @@ struct Highlights : test::LitSceneTest {
   }
   void set(const char* knob, const char* value) { ASSERT_TRUE(renderer->knobs().set(knob, value).ok()) << knob; }
   /// A black metal-like wall at z = 0: white metal, seen from the camera of LitSceneTest.
-  Material metal(std::uint8_t roughness) { return exact_material(255, 255, 255, roughness, 255); }
+  Material metal(int roughness) { return exact_material(255, 255, 255, static_cast<std::uint8_t>(roughness), 255); }
   Entity lamp(float width_m, const dvec3& at) {
     Light what;
     what.intensity = 10.0f;
@@ -97,9 +97,9 @@ struct Highlights : test::LitSceneTest {
 
 TEST_F(Highlights, of_wide_lamps_have_the_light_and_the_brightness_of_the_lamp_at_every_roughness) {
   const dvec3 at(0.1, 0.05, 1.2);
-  for (const std::uint8_t roughness : {64, 90, 128, 180, 255}) {
+  for (const int roughness : {64, 90, 128, 180, 255}) {
     World fresh;
-    SCOPED_TRACE(static_cast<int>(roughness));
+    SCOPED_TRACE(roughness);
     oracle_lights.clear();
     test::SceneMaker maker(fresh);
     renderer->prepare_world(fresh);
@@ -134,8 +134,8 @@ TEST_F(Highlights, of_lamps_without_a_width_do_not_depend_on_the_knob) {
 }
 
 TEST_F(Highlights, on_curved_metal_stay_as_bright_when_the_camera_moves_by_parts_of_a_pixel) {
-  for (const std::uint8_t roughness : {0, 26, 51, 90}) {
-    SCOPED_TRACE(static_cast<int>(roughness));
+  for (const int roughness : {0, 26, 51, 90}) {
+    SCOPED_TRACE(roughness);
     World fresh;
     test::SceneMaker maker(fresh);
     renderer->prepare_world(fresh);
