@@ -26,10 +26,15 @@ void add_front_depth_passes(FrameBuilder& frame) {
   const std::span<const Draw> draws = frame.draws().blended;
   if (draws.empty() || frame.find<FrontDepthWanted>() == nullptr) return;
   const SurfacePass surfaces = front_depth_surface_pass();
-  if (!frame.services().wait_for_pipelines && !frame.request_surfaces(draws, surfaces)) return;
+  const DrawProgram start_program{shaders::lighting::front_depth_start_frag};
+  if (const FrameServices& services = frame.services(); !services.wait_for_pipelines) {
+    const gpu::Format formats[] = {kFrontDepthFormat};
+    const bool ready = services.pipelines.request({pipeline_desc(start_program, "lighting", formats)}, services.log);
+    if (!frame.request_surfaces(draws, surfaces) || !ready) return;
+  }
   const ImageRef opaque = frame.get<GeometryOutputs>().depth;
 
-  DrawPass start(frame, "front_depth_start", {shaders::lighting::front_depth_start_frag});
+  DrawPass start(frame, "front_depth_start", start_program);
   start.read("depth_image", opaque);
   const ImageRef started = start.target(create_view_image(frame, "front_depth", kFrontDepthFormat));
   start.draw_triangle();

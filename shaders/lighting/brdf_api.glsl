@@ -54,7 +54,7 @@ float disc_highlight(ShadingPoint p, float n_dot_h, float v_dot_h, float half_an
 // Radiance toward the eye for an illuminance (on a plane that faces the light) from the unit direction `to_light`. For
 // unit l and v: h = (l + v) / |l + v| and |l + v|² = 2 + 2 l·v. Dot products with h therefore do not need the vector h.
 // half_angle: apparent radius of the light in radians; 0: a point.
-vec3 reflected(ShadingPoint p, vec3 to_light, vec3 illuminance, float half_angle) {
+vec3 reflected_disc(ShadingPoint p, vec3 to_light, vec3 illuminance, float half_angle) {
   float n_dot_l_raw = dot(p.normal, to_light);
   float n_dot_l = clamp(n_dot_l_raw, 0.0, 1.0);
   float sum2 = max(2.0 + 2.0 * dot(to_light, p.to_eye), 1e-6);  // no NaN if to_light = -to_eye
@@ -69,6 +69,11 @@ vec3 reflected(ShadingPoint p, vec3 to_light, vec3 illuminance, float half_angle
   float one2 = one * one;
   vec3 fresnel = p.f0 + (1.0 - p.f0) * (one2 * one2 * one);
   return (illuminance * n_dot_l) * (p.diffuse + fresnel * (specular - p.diffuse));
+}
+
+// The same for a point.
+vec3 reflected(ShadingPoint p, vec3 to_light, vec3 illuminance) {
+  return reflected_disc(p, to_light, illuminance, 0.0);
 }
 
 #endif

@@ -52,7 +52,7 @@ vec3 response_to(ShadingPoint p, vec3 to_light, vec3 illuminance, float half_ang
 #ifdef GLOAM_FORWARD_RESPONSE
   return light_response(p, to_light, illuminance);
 #else
-  return reflected(p, to_light, illuminance, half_angle);
+  return reflected_disc(p, to_light, illuminance, half_angle);
 #endif
 }
 

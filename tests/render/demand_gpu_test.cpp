@@ -67,6 +67,7 @@ struct Set {
     for (const PassTime& pass : renderer->report().passes) count += pass.module == module ? 1 : 0;
     return count;
   }
+  [[nodiscard]] std::size_t pending() const { return renderer->report().pipelines_pending; }
   [[nodiscard]] std::vector<std::uint8_t> picture() {
     return std::move(test::value_of(renderer->read_picture(ViewId{0})).rgba);
   }
@@ -174,7 +175,7 @@ TEST_F(DemandOnGpu, pictures_without_waiting_are_those_with_waiting_once_all_is_
   EXPECT_TRUE(stage->picture() == bare) << "until it is ready the picture is that of a scene without it";
   gate_->open();
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(25);
-  while (stage->passes("lights") == 0 || stage->passes("fog") == 0) {
+  while (stage->passes("lights") == 0 || stage->passes("fog") == 0 || stage->pending() > 0) {
     ASSERT_LT(std::chrono::steady_clock::now(), deadline);
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
     stage->frames();

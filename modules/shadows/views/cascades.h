@@ -14,9 +14,9 @@ namespace gloam {
 
 /// World-space box around all casters; a view resource, written by system shadow_bounds.
 struct CasterBounds {
-  dvec3 grid_anchor = dvec3(0.0);  ///< ShadowTexelGrid::anchor
   dvec3 min = dvec3(std::numeric_limits<double>::infinity());
   dvec3 max = dvec3(-std::numeric_limits<double>::infinity());
+  dvec3 grid_anchor = dvec3(0.0);  ///< ShadowTexelGrid::anchor
 
   double log2_sizes = 0.0;  ///< sum of the binary logarithms of the casters' half diagonals
   std::uint64_t sized = 0;  ///< casters in that sum

@@ -37,7 +37,7 @@ vec3 diffuse_light = vec3(0.0);  // illuminance of the surface, summed only with
 
 vec3 add_reflected(ShadingPoint p, vec3 to_light, vec3 illuminance, float half_angle) {
   if (kDiffuseLight != 0u) diffuse_light += illuminance * clamp(dot(p.normal, to_light), 0.0, 1.0);
-  return reflected(p, to_light, illuminance, half_angle);
+  return reflected_disc(p, to_light, illuminance, half_angle);
 }
 
 // `share`: visibility of the light, multiplied with the shadows and cookies that arriving_local applies.

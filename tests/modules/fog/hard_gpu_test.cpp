@@ -150,11 +150,15 @@ TEST_F(FogHard, mirrored_views_have_the_fog_of_the_whole_way) {
   expect_wall(stage, 5.0 + 8.0, {0.1f, vec3(0.3f)});
 }
 
-TEST_F(FogHard, blended_surfaces_have_the_fog_of_what_is_behind_them) {
-  FogStage stage;
-  stage.glow({0.0, 0.0, -20.0}, 50.0f, vec3(2.0f, 1.0f, 0.5f));
-  stage.glow({0.0, 0.0, -2.0}, 0.3f, vec3(0.0f, 0.0f, 4.0f), 0.5f);
-  expect_wall(stage, 20.0, {0.05f, vec3(0.3f)});
+// See FrontDepth (modules/lighting/outputs.h): reciprocal distances are averaged by opacity.
+TEST_F(FogHard, blended_surfaces_count_by_their_opacity) {
+  for (const double alpha : {0.0, 0.25, 0.75, 0.999}) {
+    SCOPED_TRACE(alpha);
+    FogStage stage;
+    stage.glow({0.0, 0.0, -20.0}, 50.0f, vec3(2.0f, 1.0f, 0.5f));
+    stage.glow({0.0, 0.0, -2.0}, 50.0f, vec3(0.0f, 0.0f, 4.0f), static_cast<float>(alpha));
+    expect_wall(stage, 1.0 / (alpha / 2.0 + (1.0 - alpha) / 20.0), {0.05f, vec3(0.3f)});
+  }
 }
 
 TEST_F(FogHard, a_camera_far_from_the_origin_has_the_same_fog) {

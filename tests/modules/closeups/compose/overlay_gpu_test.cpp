@@ -42,6 +42,7 @@ class CopyReader final : public Module {
 struct FaceDepths {
   std::uint32_t size = 0;
   std::vector<float> depths;
+  float most = 0.0f;  ///< greatest depth
   [[nodiscard]] float at(std::uint32_t x, std::uint32_t y) const { return depths[std::size_t{y} * size + x]; }
 };
 
@@ -95,10 +96,11 @@ class CloseupOverlayFrames : public DeferredShadowsTest {
   /// atlas: read while it had the size that it has now.
   [[nodiscard]] FaceDepths face_in(const std::vector<float>& atlas, const AtlasSquare& square) const {
     const std::uint32_t side = world.view_resource<ViewFaces>(ViewId{0}).atlas.size();
-    FaceDepths face{square.size, {}};
+    FaceDepths face{.size = square.size, .depths = {}};
     for (std::uint32_t i = 0; i < square.size * square.size; ++i) {
       const uvec2 texel = square.origin + uvec2(i % square.size, i / square.size);
       face.depths.push_back(atlas[std::size_t{texel.y} * side * 3 / 2 + texel.x]);
+      face.most = std::max(face.most, face.depths.back());
     }
     return face;
   }
@@ -121,7 +123,7 @@ class CloseupOverlayFrames : public DeferredShadowsTest {
     }
   };
   [[nodiscard]] static bool shows(const FaceDepths& face, const FaceDepths& without, std::uint32_t x, std::uint32_t y) {
-    return face.at(x, y) > without.at(x, y) * 1.0001f + 1e-6f;
+    return face.at(x, y) > without.at(x, y) * 1.0001f + 1e-6f * face.most;
   }
   [[nodiscard]] static Around around(const FaceDepths& face, const FaceDepths& without, std::uint32_t x,
                                      std::uint32_t y) {

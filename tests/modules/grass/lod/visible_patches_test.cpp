@@ -102,8 +102,15 @@ TEST(VisiblePatches, behind_the_camera_stay_within_the_cast_distance) {
                                            patch_at(dvec3(0.0, 0.0, 9.0), vec3(0.5f), 0.3f, 30.0f)};
   const RenderView view = view_from(dvec3(0.0, 1.0, 0.0), dvec3(0.0, 1.0, -1.0));
   EXPECT_TRUE(find_visible_patches(patches, view, {}, *make_serial_executor()).patches.empty());
-  EXPECT_EQ(kept(find_visible_patches(patches, view, {.cast_distance_m = 6.0f}, *make_serial_executor())),
-            std::set<std::uint32_t>{0});
+  const auto behind = [&](std::span<const CastingLight> lights) {
+    return kept(
+        find_visible_patches(patches, view, {.cast_distance_m = 6.0f, .lights = lights}, *make_serial_executor()));
+  };
+  const CastingLight from_behind[] = {{.directional = true, .direction = glm::normalize(vec3(0.0f, -0.2f, -1.0f))}};
+  const CastingLight from_ahead[] = {{.directional = true, .direction = glm::normalize(vec3(0.0f, -0.2f, 1.0f))}};
+  EXPECT_EQ(behind(from_behind), std::set<std::uint32_t>{0});
+  EXPECT_TRUE(behind(from_ahead).empty()) << "their shadows fall away from the view";
+  EXPECT_TRUE(behind({}).empty()) << "nothing casts";
 }
 
 TEST(VisiblePatches, empty_far_and_undefined_patches_are_left_out) {

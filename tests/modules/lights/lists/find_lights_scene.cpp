@@ -243,9 +243,9 @@ Reach reach_of(const shaders::LocalLight& light, const dvec3& point) {
   double margin = (range * (1.0 - distance / range)) / (band_m + 4e-6 * range);
   if (light.spot_scale > 0.0f) {
     // Within 1 mm of the lamp, shading clamps the distance to 1 mm, so angles are unreliable.
-    const double cosine = glm::dot(offset, dvec3(light.direction)) / std::max(distance, 1e-3);
+    const double cosine = glm::dot(offset, dvec3(light.direction)) / std::max(distance, 1e-15);
     const double cos_outer = -static_cast<double>(light.spot_offset) / static_cast<double>(light.spot_scale);
-    margin = std::min(margin, (cosine - cos_outer) / (3e-6 + 2.0 * band_m / std::max(distance, 1e-3)));
+    margin = std::min(margin, (cosine - cos_outer) / (3e-6 + 2.0 * band_m / std::max(distance, 1e-15)));
   }
   return margin > 1.0 ? Reach::certain : margin > -1.0 ? Reach::doubtful : Reach::none;
 }

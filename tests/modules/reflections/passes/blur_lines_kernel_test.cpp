@@ -19,7 +19,7 @@ namespace {
 /// Reflection images of a view that looks down at a floor.
 struct GlossyImages {
   RenderView view;
-  shaders::ReflectionConstants c{};
+  shaders::ReflectionConstants c{.unit_m = 1.0f};
   std::vector<ByteTexel> surface;  ///< spread, roughness, distance
   std::vector<vec4> color;
 

@@ -68,7 +68,7 @@ class Upscale : public KernelTest {
   }
 
   SyntheticView seen;
-  shaders::ReflectionConstants c{};
+  shaders::ReflectionConstants c{.unit_m = 1.0f};
 };
 
 TEST_F(Upscale, at_full_size_each_pixel_has_its_texel) {

@@ -15,7 +15,7 @@ namespace gloam::test {
 /// Inputs of the kernel that blends screen space and proxies. Empty lists stand for missing inputs.
 struct BlendInput {
   const SyntheticView& seen;
-  shaders::ReflectionConstants constants{};
+  shaders::ReflectionConstants constants{.unit_m = 1.0f};
   bool proxies_on = true;
   std::uint32_t layers = 4;
   bool sphere_test = true;

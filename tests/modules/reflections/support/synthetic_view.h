@@ -137,6 +137,7 @@ struct BoxMeeting {
 /// Constants as the module sets them, without fog and changed lights.
 [[nodiscard]] inline shaders::ReflectionConstants reflection_constants(const RenderView& view, std::uint32_t scale) {
   shaders::ReflectionConstants c{};
+  c.unit_m = 1.0f;
   c.scale = scale;
   c.size = (uvec2(view.width, view.height) + scale - 1u) / scale;
   c.k1 = 32.0f;

@@ -71,22 +71,26 @@ TEST_F(ClassifyKernels, decide_all_tiles_below_an_empty_map_and_behind_a_wall) {
     }
 }
 
+/// Bias of a light at kClassifyMiddle in metres: kClassifyBiasM at 5 m from a lamp, which is 2 m away, and in a map of
+/// the sun with texels of 1 cm, which are 2 m / 128 wide.
+double bias_of(std::size_t light) { return kClassifyBiasM * (light == 2 ? 2.0 / 128.0 / 0.01 : 2.0 / 5.0); }
+
 // A sheet of less than the bias above the receiver does not block, a higher one does.
 TEST_F(ClassifyKernels, see_sheets_that_are_higher_than_the_bias) {
   SimpleScene s = simple_scene(CubePart::face_middle, 7, 0.02, 128);
   constexpr std::uint32_t kTile = 4 * 12 + 6;
   // Pixels of odd rows are above the sheet in half of the cases, which must not hide it from the others.
   for (const double rise : {0.0, 0.012})
-    for (const double biases : {0.4, 1.6, 2.5}) {
+    for (const double height_m : {0.0003, 0.0013, 0.002, 0.005, 0.008}) {
       fill_group(s.scene, kTile, 0, uvec2(0), uvec2(7), kClassifyMiddle, s.normal, rise);
-      const dvec3 sheet = s.scene.tiles[kTile].groups[0][4].position - biases * kClassifyBiasM * s.from_light;
+      const dvec3 sheet = s.scene.tiles[kTile].groups[0][4].position - height_m * s.from_light;
       draw_classify_maps(s.scene,
                          nearest_of({plane(kClassifyMiddle, s.normal), rectangle(sheet, s.normal, glm::dvec2(0.15))}));
       const Classified c = classify(s.scene);
       expect_as_searched(s.scene, c, 31);
       for (std::size_t light = 0; light < kClassifyLights; ++light)
-        EXPECT_EQ(c.slot(kTile, light), biases < 0.75 ? GLOAM_ALL_LIT : kTile)
-            << kClassifyLightNames[light] << ", " << biases << " times the bias, rise " << rise;
+        EXPECT_EQ(c.slot(kTile, light), height_m < 0.75 * bias_of(light) ? GLOAM_ALL_LIT : kTile)
+            << kClassifyLightNames[light] << ", " << height_m / bias_of(light) << " times the bias, rise " << rise;
     }
 }
 
@@ -94,16 +98,16 @@ TEST_F(ClassifyKernels, see_sheets_that_are_higher_than_the_bias) {
 TEST_F(ClassifyKernels, let_light_through_a_sheet_near_subsurface_materials) {
   SimpleScene s = simple_scene(CubePart::face_middle, 7, 0.0, 128);
   constexpr std::uint32_t kTile = 4 * 12 + 6;
-  const dvec3 sheet = kClassifyMiddle - 2.5 * kClassifyBiasM * s.from_light;
-  for (const bool subsurface : {false, true}) {
-    fill_group(s.scene, kTile, 0, uvec2(0), uvec2(7), kClassifyMiddle, -s.from_light);
-    for (ClassifyPixel& pixel : s.scene.tiles[kTile].groups[0]) pixel.subsurface = subsurface;
-    draw_classify_maps(s.scene, plane(sheet, s.from_light));
-    const Classified c = classify(s.scene);
-    expect_as_searched(s.scene, c, 31);
-    for (const std::size_t light : {0u, 2u})
+  for (const bool subsurface : {false, true})
+    for (const std::size_t light : {0u, 2u}) {
+      const dvec3 sheet = kClassifyMiddle - 2.5 * bias_of(light) * s.from_light;
+      fill_group(s.scene, kTile, 0, uvec2(0), uvec2(7), kClassifyMiddle, -s.from_light);
+      for (ClassifyPixel& pixel : s.scene.tiles[kTile].groups[0]) pixel.subsurface = subsurface;
+      draw_classify_maps(s.scene, plane(sheet, s.from_light));
+      const Classified c = classify(s.scene);
+      expect_as_searched(s.scene, c, 31);
       EXPECT_EQ(c.slot(kTile, light) == GLOAM_ALL_UNLIT, !subsurface) << kClassifyLightNames[light];
-  }
+    }
 }
 
 // Single texels that block one pixel. Each map holds one of them.

@@ -58,6 +58,7 @@ struct MipRuns {
 MipRuns mip_runs(uvec2 origin, std::uint32_t size, bool orthographic, float gap) {
   MipRuns made;
   shaders::ShadowMipGroup group{};
+  group.depth_scale = 1.0f;
   group.origin = origin;
   group.size = size;
   group.orthographic = orthographic ? 1u : 0u;
