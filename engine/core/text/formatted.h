@@ -14,6 +14,6 @@ namespace gloam {
 
 /// The text that std::printf would print in the "C" locale: the decimal separator is a point, whatever locale the host
 /// has set. std::snprintf, std::to_string of a floating-point number and streams follow the host's locale instead.
-GLOAM_PRINTF_FORMAT [[nodiscard]] std::string formatted(const char* format, ...);
+[[nodiscard]] GLOAM_PRINTF_FORMAT std::string formatted(const char* format, ...);
 
 }  // namespace gloam
