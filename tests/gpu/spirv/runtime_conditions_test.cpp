@@ -13,21 +13,16 @@
 #include "engine/gpu/spirv/specialize.h"
 #include "shaders/every/shaders.h"
 #include "shaders/gpu_test/shaders.h"
+#include "tests/gpu/spirv/instructions.h"
 
 namespace gloam::gpu {
 namespace {
 
 using ModuleWords = std::vector<std::uint32_t>;
 
-template <class Visit>
-void for_each_instruction_of(std::span<const std::uint32_t> words, const Visit& visit) {
-  for (std::size_t at = 5; at < words.size(); at += words[at] >> spv::WordCountShift)
-    visit(words[at] & spv::OpCodeMask, words.subspan(at, words[at] >> spv::WordCountShift));
-}
-
 std::size_t branches_of(std::span<const std::uint32_t> words) {
   std::size_t count = 0;
-  for_each_instruction_of(words, [&](std::uint32_t op, const auto&) {
+  test::for_each_instruction(words, [&](std::uint32_t op, const auto&) {
     count += op == spv::OpBranchConditional || op == spv::OpSwitch ? 1 : 0;
   });
   return count;
@@ -46,8 +41,8 @@ std::size_t changed_branches(std::span<const std::uint32_t> before, std::span<co
       if (op == spv::OpBranchConditional || op == spv::OpSwitch) conditions.push_back(w[1]);
     };
   };
-  for_each_instruction_of(before, collect(old));
-  for_each_instruction_of(after, collect(now));
+  test::for_each_instruction(before, collect(old));
+  test::for_each_instruction(after, collect(now));
   std::size_t changed = 0;
   for (std::size_t i = 0; i < old.size() && i < now.size(); ++i) changed += old[i] != now[i] ? 1 : 0;
   return changed;
@@ -70,7 +65,7 @@ TEST(UniformConditions, that_blocks_push_constants_and_arguments_decide_are_hidd
 TEST(UniformConditions, of_a_switch_are_hidden) {
   const ModuleWords after = spirv::hide_uniform_conditions(shaders::gpu_test::uniform_switch_comp.words);
   std::set<std::uint32_t> selected, switched;
-  for_each_instruction_of(after, [&](std::uint32_t op, const auto& w) {
+  test::for_each_instruction(after, [&](std::uint32_t op, const auto& w) {
     if (op == spv::OpSelect) selected.insert(w[2]);
     if (op == spv::OpSwitch && selected.contains(w[1])) switched.insert(w[1]);
   });

@@ -13,28 +13,22 @@
 #include "engine/gpu/spirv/reflection.h"
 #include "shaders/every/shaders.h"
 #include "shaders/gpu_test/shaders.h"
+#include "tests/gpu/spirv/instructions.h"
 
 namespace gloam::gpu {
 namespace {
 
 using Words = std::vector<std::uint32_t>;
 
-/// Calls visit(opcode, words of the instruction).
-template <class Visit>
-void for_each_instruction(std::span<const std::uint32_t> words, const Visit& visit) {
-  for (std::size_t at = 5; at < words.size(); at += words[at] >> spv::WordCountShift)
-    visit(words[at] & spv::OpCodeMask, words.subspan(at, words[at] >> spv::WordCountShift));
-}
-
 std::size_t count_of(std::span<const std::uint32_t> words, std::uint32_t op) {
   std::size_t count = 0;
-  for_each_instruction(words, [&](std::uint32_t found, const auto&) { count += found == op ? 1 : 0; });
+  test::for_each_instruction(words, [&](std::uint32_t found, const auto&) { count += found == op ? 1 : 0; });
   return count;
 }
 
 bool has_specialisation(std::span<const std::uint32_t> words) {
   bool found = false;
-  for_each_instruction(words, [&](std::uint32_t op, const auto& w) {
+  test::for_each_instruction(words, [&](std::uint32_t op, const auto& w) {
     found = found || (op == spv::OpDecorate && w[2] == spv::DecorationSpecId);
   });
   return found;
@@ -64,7 +58,7 @@ TEST(SpirvSpecialize, leaves_no_choice_between_constant_vectors) {
     const NumberedConstant constants[] = {{.id = 0, .value = flag}};
     const Words words = spirv::specialize(shaders::gpu_test::choose_vectors_comp.words, constants);
     ASSERT_FALSE(words.empty());
-    for_each_instruction(words, [&](std::uint32_t op, const auto& w) {
+    test::for_each_instruction(words, [&](std::uint32_t op, const auto& w) {
       EXPECT_FALSE(op == spv::OpSpecConstantOp && w[3] == spv::OpSelect) << "flag " << flag;
     });
   }
@@ -99,7 +93,7 @@ Words module_with_choice_by_components(std::uint32_t second_vector_op) {
 /// The operands after the type of the instruction that defines `id` as a constant.
 Words constant_of(std::span<const std::uint32_t> words, std::uint32_t id, std::uint32_t op) {
   Words operands;
-  for_each_instruction(words, [&](std::uint32_t found, const auto& w) {
+  test::for_each_instruction(words, [&](std::uint32_t found, const auto& w) {
     if (found == op && w.size() > 2 && w[2] == id) operands.assign(w.begin() + 3, w.end());
   });
   return operands;
@@ -149,7 +143,7 @@ TEST(SpirvSpecialize, names_only_blocks_and_functions_that_exist) {
       const Words words = spirv::specialize(code->words, constants);
       std::set<std::uint32_t> labels, functions, named;
       std::set<std::uint32_t> called;
-      for_each_instruction(words, [&](std::uint32_t op, const auto& w) {
+      test::for_each_instruction(words, [&](std::uint32_t op, const auto& w) {
         if (op == spv::OpLabel) labels.insert(w[1]);
         if (op == spv::OpFunction) functions.insert(w[2]);
         if (op == spv::OpFunctionCall) called.insert(w[3]);
