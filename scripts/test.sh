@@ -7,7 +7,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source scripts/common.sh
-scripts/setup.sh
+scripts/setup.sh --tests
 
 jobs=${CTEST_PARALLEL_LEVEL:-$(nproc)}
 reports=()

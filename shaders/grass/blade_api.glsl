@@ -25,7 +25,8 @@ vec3 grass_forward(vec3 normal, float yaw) {
   precise float share = 1.0 / max(1.0 + normal.y, 1e-4);
   precise vec3 x_axis = vec3(1.0 - normal.x * normal.x * share, -normal.x, -normal.x * normal.z * share);
   precise vec3 z_axis = vec3(-normal.x * normal.z * share, -normal.z, 1.0 - normal.z * normal.z * share);
-  precise vec3 forward = x_axis * cos(yaw) - z_axis * sin(yaw);
+  vec2 turn = unit_circle(yaw / (2.0 * kPi));
+  precise vec3 forward = x_axis * turn.x - z_axis * turn.y;
   return forward;
 }
 

@@ -30,15 +30,18 @@ TEST_P(SecondDevice, draws_the_picture_of_the_first) {
     GTEST_SKIP()
         << "there is no usable Vulkan device of SwiftShader and lavapipe (Debian's chromium brings SwiftShader)";
   // Shadow filters have more branches than SwiftShader compiles; see the next test.
-  const Picture expected = draw_scene(std::move(first), GetParam(), {"shadows.mode=off"});
-  const Picture picture = draw_scene(std::move(second), GetParam(), {"shadows.mode=off"});
-  ASSERT_EQ(picture.rgba.size(), expected.rgba.size());
-  ASSERT_FALSE(picture.rgba.empty());
-  // The devices place edges of triangles on grids of different subpixels, and builtin:many_lights has hundreds of lamps
-  // about one pixel wide, which one grid hits and the other misses.
+  const Picture wanted = draw_scene(std::move(first), GetParam(), {"shadows.mode=off"}, 360);
+  const Picture found = draw_scene(std::move(second), GetParam(), {"shadows.mode=off"}, 360);
+  ASSERT_EQ(found.rgba.size(), wanted.rgba.size());
+  ASSERT_FALSE(found.rgba.empty());
+  // The devices place edges of triangles on grids of different subpixels. Lamps and blades of grass that are about one
+  // pixel wide are hit by one grid and missed by the other, so means of 4 × 4 pixels are compared: a pixel of another
+  // blade changes a mean by up to 6.
+  const Picture picture = reduced(found, 4), expected = reduced(wanted, 4);
+  constexpr int kSteps = 6;
   const int width = static_cast<int>(picture.width), height = static_cast<int>(picture.height);
-  EXPECT_LE(share_unlike_neighbours(picture.rgba, expected.rgba, width, height, 3), 0.005);
-  EXPECT_LE(share_unlike_neighbours(expected.rgba, picture.rgba, width, height, 3), 0.005);
+  EXPECT_LE(share_unlike_neighbours(picture.rgba, expected.rgba, width, height, kSteps), 0.003);
+  EXPECT_LE(share_unlike_neighbours(expected.rgba, picture.rgba, width, height, kSteps), 0.003);
 }
 
 TEST(SecondDeviceRefuses, shaders_that_its_compiler_does_not_end_at) {

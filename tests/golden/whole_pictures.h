@@ -16,18 +16,18 @@
 
 namespace gloam::test {
 
-/// One frame of a scene at 160×90 on this device. assignments: KNOB=VALUE. Fails the test on an error or a validation
-/// message.
+/// One frame of a scene on this device, `height` rows of 16 : 9. assignments: KNOB=VALUE. Fails the test on an error or
+/// a validation message.
 [[nodiscard]] inline Picture draw_scene(std::unique_ptr<gpu::Device> device, const std::string& scene,
-                                        const std::vector<std::string>& assignments) {
+                                        const std::vector<std::string>& assignments, std::uint32_t height = 90) {
   if (device == nullptr) {
     ADD_FAILURE() << "no device";
     return {};
   }
   Options options;
   options.scene = scene;
-  options.width = 160;
-  options.height = 90;
+  options.width = height * 16 / 9;
+  options.height = height;
   options.assignments = assignments;
   auto session = open_session_on(std::move(device), options, gpu_log());
   if (!session) {
@@ -77,6 +77,21 @@ namespace gloam::test {
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) count += unlike(x, y, 0) || unlike(x, y, 1) || unlike(x, y, 2) ? 1 : 0;
   return static_cast<double>(count) / (static_cast<double>(width) * height);
+}
+
+/// The means of blocks of size × size pixels. Both sides of the picture are multiples of `size`.
+[[nodiscard]] inline Picture reduced(const Picture& picture, std::uint32_t size) {
+  Picture small;
+  small.width = picture.width / size;
+  small.height = picture.height / size;
+  for (std::uint32_t y = 0; y < small.height; ++y)
+    for (std::uint32_t i = 0; i < small.width * 4; ++i) {
+      std::uint32_t sum = 0;
+      for (std::uint32_t k = 0; k < size * size; ++k)
+        sum += picture.rgba[((y * size + k / size) * picture.width + i / 4 * size + k % size) * 4 + i % 4];
+      small.rgba.push_back(static_cast<std::uint8_t>((sum + size * size / 2) / (size * size)));
+    }
+  return small;
 }
 
 }  // namespace gloam::test

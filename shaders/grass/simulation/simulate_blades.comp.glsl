@@ -29,19 +29,15 @@ void half_iteration(int first) {
 
 void push_out(GrassPatchRow patch_row, GrassStem stem, uint step) {
   float passed = float(step + 1u) / float(max(steps.frame_steps, 1u));
-  vec3 in_patch[kKnots];
+  if (patch_row.colliders == 0u) return;
   [[unroll]] for (int k = 0; k < kKnots; ++k) {
     precise vec3 knot = stem.root + next[k];
-    in_patch[k] = knot;
-  }
-  for (uint i = 0u; i < patch_row.colliders; ++i) {
-    GrassCollider collider = colliders[patch_row.first_collider + i];
-    [[unroll]] for (int k = 0; k < kKnots; ++k) in_patch[k] =
-        pushed(collider, in_patch[k], stem.normal, passed, rest[k].reach_m);
-  }
-  [[unroll]] for (int k = 0; k < kKnots; ++k) {
-    precise vec3 out_at = in_patch[k] - stem.root;
-    next[k] = patch_row.colliders != 0u ? out_at : next[k];
+    uint i = 0u;
+    do {  // inside the loop over knots: see docs/experiments.md, "Shadow filters on SwiftShader"
+      knot = pushed(colliders[patch_row.first_collider + i], knot, stem.normal, passed, rest[k].reach_m);
+    } while (++i < patch_row.colliders);
+    precise vec3 out_at = knot - stem.root;
+    next[k] = out_at;
   }
 }
 

@@ -41,7 +41,8 @@ mat3 slave_turn(GrassStem master, GrassStem slave, uint slot, vec3 master_tip, v
   float yaw = slave.yaw - master.yaw;
   yaw -= 2.0 * kPi * floor(yaw / (2.0 * kPi) + 0.5);
   float angle = yaw * faded + kSlaveTurn * slave_hash(slot) * tip_speed / (tip_speed + kSlaveTurnSpeed);
-  float c = cos(angle), s = sin(angle);
+  vec2 circle = unit_circle(angle / (2.0 * kPi));
+  float c = circle.x, s = circle.y;
   mat3 turn;
   for (int i = 0; i < 3; ++i) {
     vec3 axis = vec3(i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0, i == 2 ? 1.0 : 0.0);

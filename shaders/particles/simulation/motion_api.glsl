@@ -69,8 +69,9 @@ Particle particle_state(ParticleEmitterRow e, uint row, uint k) {
   vec4 a = unit_lot(lot_a), b = unit_lot(lot_b);
   float age = max(e.oldest_age_s - float(k) * e.interval_s, 0.0);
   vec3 birth = (a.x - 0.5) * e.box_x + (a.y - 0.5) * e.box_y + (a.z - 0.5) * e.box_z;
-  float cosine = mix(1.0, e.cos_spread, b.x), sine = sqrt(max(1.0 - cosine * cosine, 0.0)), about = 2.0 * kPi * b.y;
-  vec3 direction = cosine * e.axis + sine * (cos(about) * e.across_x + sin(about) * e.across_y);
+  float cosine = mix(1.0, e.cos_spread, b.x), sine = sqrt(max(1.0 - cosine * cosine, 0.0));
+  vec2 about = unit_circle(b.y);
+  vec3 direction = cosine * e.axis + sine * (about.x * e.across_x + about.y * e.across_y);
   vec3 v = direction * (e.speed * mix(GLOAM_PARTICLE_SLOWEST, GLOAM_PARTICLE_FASTEST, b.z));
 
   vec3 drift = vec3(0.0), flow = particle_flow(e, birth, age, 0.0);
@@ -86,7 +87,7 @@ Particle particle_state(ParticleEmitterRow e, uint row, uint k) {
 
   Particle p;
   p.life = min(age * e.inverse_life, 1.0);
-  p.position = e.origin + birth + calm_way(e, v, (1.0 - exp(-e.drag * age)) / e.drag, age) + drift;
+  p.position = e.origin + birth + calm_way(e, v, age * decay_mean(e.drag * age), age) + drift;
   p.radius_m = 0.5 * e.size_m * mix(GLOAM_PARTICLE_SMALLEST, GLOAM_PARTICLE_LARGEST, a.w) * mix(1.0, e.growth, p.life);
   p.angle = 2.0 * kPi * b.w + e.spin * age * (2.0 * b.z - 1.0);
   p.opacity = particle_opacity(e, p.life);

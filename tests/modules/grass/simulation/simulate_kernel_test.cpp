@@ -61,13 +61,20 @@ TEST_F(GrassSimulation, any_number_of_masters_and_any_size_of_workgroups_gives_t
     SCOPED_TRACE(count);
     GrassInput input = field({count}, {0.1f, 0.6f}, vec3(3.0f, 0.0f, 1.0f));
     input.steps.frame_steps = 3;
-    const SimulateTwin twin(input);
+    SimulateTwin twin(input);
     const GrassOutput first = SimulateKernel(device(), 64).run(input);
+    twin.advance(input.steps);
     if (count > 0) expect_sound(twin, first.knots);
     EXPECT_EQ(SimulateKernel(device(), 64).run(input), first) << "again";
-    EXPECT_EQ(SimulateKernel(device(), 32).run(input), first);
-    EXPECT_EQ(SimulateKernel(device(), 128).run(input), first);
-    EXPECT_EQ(SimulateKernel(device(), 1).run(input), first) << "a thread a blade";
+    for (const std::uint32_t threads : {32u, 128u, 1u}) {
+      SCOPED_TRACE(threads);
+      const GrassOutput found = SimulateKernel(device(), threads).run(input);
+      if (rounds_alike(device())) {
+        EXPECT_EQ(found, first);
+      } else {
+        EXPECT_LT(twin.distance(found.knots), kBound_m);
+      }
+    }
   }
 }
 
