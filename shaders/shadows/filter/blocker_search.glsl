@@ -236,6 +236,18 @@ vec4 cone_depths(SearchCone cone, vec4 off) {
   return max(cone.apex + (abs(off) - cone.reach) * cone.depth_per_texel, vec4(cone.least));
 }
 
+// Least depths of a cone over the gathers of an 8×8 kernel: in the left and right column of each gather column, and in
+// the upper and lower row of each gather row.
+struct ConeEdges8 {
+  vec4 left, right, upper, lower;
+};
+
+ConeEdges8 cone_edges(SearchCone cone, Kernel k) {
+  const vec4 low = vec4(-3.0, -1.0, 1.0, 3.0), high = vec4(-2.0, 0.0, 2.0, 4.0);
+  return ConeEdges8(cone_depths(cone, low - k.fraction.x), cone_depths(cone, high - k.fraction.x),
+                    cone_depths(cone, low - k.fraction.y), cone_depths(cone, high - k.fraction.y));
+}
+
 // Shares of the emitter that texels with these depths hide: a texel is the smaller on the emitter, the nearer its
 // surface is to the light. a_texel: difference of depths at which a texel hides all of it.
 vec4 hidden_shares(ShadowPoint p, vec4 depth, float a_texel) {
@@ -278,10 +290,7 @@ Blockers find_blockers_8(ShadowPoint p, int mip, bool whole_plane, float half_wi
   Kernel k = make_kernel(p, mip, 8);
   Gathers8 g = make_gathers(k);
   SearchCone cone = make_cone(p, k, half_width, whole_plane);
-  vec4 left = cone_depths(cone, vec4(-3.0, -1.0, 1.0, 3.0) - k.fraction.x);
-  vec4 right = cone_depths(cone, vec4(-2.0, 0.0, 2.0, 4.0) - k.fraction.x);
-  vec4 upper = cone_depths(cone, vec4(-3.0, -1.0, 1.0, 3.0) - k.fraction.y);
-  vec4 lower = cone_depths(cone, vec4(-2.0, 0.0, 2.0, 4.0) - k.fraction.y);
+  ConeEdges8 e = cone_edges(cone, k);
   vec2 first = whole_plane ? 1.0 - k.fraction : vec2(1.0), last = whole_plane ? k.fraction : vec2(1.0);
   vec2 beyond = min(k.fraction, 1.0 - k.fraction),
        sums = vec2(0.0);  // the middles of outer texels are at least 2 + beyond away
@@ -293,8 +302,8 @@ Blockers find_blockers_8(ShadowPoint p, int mip, bool whole_plane, float half_wi
     sums = turn == 0 ? vec2(0.0) : sums;  // reset, as the body may run again: see never()
     vec2 u = outer_x ? g.u.xw : g.u.yz, columns = outer_x ? g.column.xw : g.column.yz, v = outer_y ? g.v.xw : g.v.yz;
     vec2 rows = outer_y ? g.row.xw : g.row.yz, ends = outer_x ? vec2(first.x, last.x) : vec2(1.0);
-    vec2 lefts = outer_x ? left.xw : left.yz, rights = outer_x ? right.xw : right.yz;
-    vec2 uppers = outer_y ? upper.xw : upper.yz, lowers = outer_y ? lower.xw : lower.yz;
+    vec2 lefts = outer_x ? e.left.xw : e.left.yz, rights = outer_x ? e.right.xw : e.right.yz;
+    vec2 uppers = outer_y ? e.upper.xw : e.upper.yz, lowers = outer_y ? e.lower.xw : e.lower.yz;
     add_blocker_row(sums, p, u, v.x, columns, rows.x, g.corner, vec2(lowers.x, uppers.x), lefts, rights,
                     vec2(1.0, outer_y ? first.y : 1.0), ends, a_texel);
     add_blocker_row(sums, p, u, v.y, columns, rows.y, g.corner, vec2(lowers.y, uppers.y), lefts, rights,
@@ -342,9 +351,9 @@ Blockers find_blockers_across(ShadowPoint p, int mip, int texels, bool whole_pla
     vec2 cell = vec2(i % texels, i / texels);
     vec2 share = whole_plane ? edge_shares(k.fraction, cell, float(texels)) : vec2(1.0);
     vec2 at = (k.base + cell + 0.5) * k.square.texel;
-    vec4 least = cone_depths(cone, vec4(k.base + cell + 0.5 - k.at, 0.0, 0.0));
     float rise, covered_share;
     float depth = cube_depth(p, at, mip, rise, covered_share);
+    vec4 least = cone_depths(cone, vec4(at / k.square.texel - k.at, 0.0, 0.0));
     float threshold = max(tap_threshold(p, k, at, cone.least, rise), max(least.x, least.y));
     float weight = depth > threshold ? share.x * share.y : 0.0;
     weight *= hidden_shares(p, vec4(depth), whole_plane ? 1e9 : k.square.texel / max(p.scale, 1e-6)).x;

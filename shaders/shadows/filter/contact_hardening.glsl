@@ -10,12 +10,23 @@
 // The contact-hardening filter (Thief §1.3.3). It blends two mips, in which the penumbra is 4 to 8 and 2 to 4 texels
 // wide.
 
-// Adds the blocked weights of one gather. sums: blocked weight of the kernel whose middle is texel column 3 (x), and of
+// A texel of the kernel hides a part of the emitter only if its surface lies in the cone between receiver and emitter
+// (SearchCone). Without that test, a wall that meets the receiver's own in a corner would block in the kernel of any
+// blocker farther away, because all of it is nearer to the light than the receiver plane. The cone here is twice as
+// wide as the emitter: a surface that slants away from the light keeps blocking in all of its kernel, even where its
+// depth falls by half of its distance from the receiver.
+SearchCone kernel_cone(ShadowPoint p, Kernel k, float width) {
+  SearchCone cone = make_cone(p, k, 0.5 * width / k.square.texel, false);
+  return SearchCone(k.least, 0.5 * cone.depth_per_texel, cone.reach, k.least);
+}
+
+// Adds the blocked weights of one gather. rows: least depths of the cone in the lower and upper row; columns: in the
+// left and right column. sums: blocked weight of the kernel whose middle is texel column 3 (x), and of
 // the kernel whose middle is column 4 (y); the result is interpolated between both. at_3, at_4: weights of the four
 // texels in the first and in the second kernel.
-void add_gather(inout vec2 sums, vec2 at, float threshold, vec4 corner, float least, vec4 at_3, vec4 at_4) {
+void add_gather(inout vec2 sums, vec2 at, float threshold, vec4 corner, vec2 rows, vec2 columns, vec4 at_3, vec4 at_4) {
   vec4 depth = textureGather(shadow_atlas, at);
-  bvec4 blocked = is_nearer(depth, threshold + corner, least);
+  bvec4 blocked = is_nearer(depth, threshold + corner, rows.xxyy, columns.xyyx);
   vec4 share = coverage(depth);
   sums = blocked.x ? sums + share.x * vec2(at_3.x, at_4.x) : sums;
   sums = blocked.y ? sums + share.y * vec2(at_3.y, at_4.y) : sums;
@@ -23,17 +34,18 @@ void add_gather(inout vec2 sums, vec2 at, float threshold, vec4 corner, float le
   sums = blocked.w ? sums + share.w * vec2(at_3.w, at_4.w) : sums;
 }
 
-// Four gathers side by side. upper, lower: weights of the upper and lower texel row, for the cells 0, 1, 2, 3 columns
-// from the middle.
-void add_gathers(inout vec2 sums, Gathers8 g, float v, float row, float least, vec4 upper, vec4 lower) {
-  add_gather(sums, vec2(g.u.x, v), g.column.x + row, g.corner, least, vec4(lower.wz, upper.zw),
+// Four gathers side by side. rows: least depths of the lower and upper row; left, right: of the columns. upper, lower:
+// weights of the upper and lower texel row, for the cells 0, 1, 2, 3 columns from the middle.
+void add_gathers(inout vec2 sums, Gathers8 g, float v, float row, vec2 rows, vec4 left, vec4 right, vec4 upper,
+                 vec4 lower) {
+  add_gather(sums, vec2(g.u.x, v), g.column.x + row, g.corner, rows, vec2(left.x, right.x), vec4(lower.wz, upper.zw),
              vec4(0.0, lower.w, upper.w, 0.0));
-  add_gather(sums, vec2(g.u.y, v), g.column.y + row, g.corner, least, vec4(lower.yx, upper.xy),
+  add_gather(sums, vec2(g.u.y, v), g.column.y + row, g.corner, rows, vec2(left.y, right.y), vec4(lower.yx, upper.xy),
              vec4(lower.zy, upper.yz));
-  add_gather(sums, vec2(g.u.z, v), g.column.z + row, g.corner, least, vec4(lower.yz, upper.zy),
+  add_gather(sums, vec2(g.u.z, v), g.column.z + row, g.corner, rows, vec2(left.z, right.z), vec4(lower.yz, upper.zy),
              vec4(lower.xy, upper.yx));
-  add_gather(sums, vec2(g.u.w, v), g.column.w + row, g.corner, least, vec4(lower.w, 0.0, 0.0, upper.w),
-             vec4(lower.zw, upper.wz));
+  add_gather(sums, vec2(g.u.w, v), g.column.w + row, g.corner, rows, vec2(left.w, right.w),
+             vec4(lower.w, 0.0, 0.0, upper.w), vec4(lower.zw, upper.wz));
 }
 
 // Blocked share of the 8×8 kernel. Gather rows come in pairs that mirror each other about the middle: the outer pair
@@ -42,12 +54,17 @@ float blocked_share_8(ShadowPoint p, int mip, float width) {
   Kernel k = make_kernel(p, mip, 8);
   Gathers8 g = make_gathers(k);
   FilterRows rows = filter_rows(clamp(width / (8.0 * k.square.texel), 0.0, 1.0), kKernelShape != 0u);
+  ConeEdges8 e = cone_edges(kernel_cone(p, k, width), k);
   vec2 sums = vec2(0.0);
   float near = 1.0 - k.fraction.y, far = k.fraction.y;
-  add_gathers(sums, g, g.v.x, g.row.x, k.least, rows.row3 * near, mix(rows.row3, rows.row2, near));
-  add_gathers(sums, g, g.v.w, g.row.w, k.least, mix(rows.row3, rows.row2, far), rows.row3 * far);
-  add_gathers(sums, g, g.v.y, g.row.y, k.least, mix(rows.row2, rows.row1, near), mix(rows.row1, rows.row0, near));
-  add_gathers(sums, g, g.v.z, g.row.z, k.least, mix(rows.row1, rows.row0, far), mix(rows.row2, rows.row1, far));
+  add_gathers(sums, g, g.v.x, g.row.x, vec2(e.lower.x, e.upper.x), e.left, e.right, rows.row3 * near,
+              mix(rows.row3, rows.row2, near));
+  add_gathers(sums, g, g.v.w, g.row.w, vec2(e.lower.w, e.upper.w), e.left, e.right, mix(rows.row3, rows.row2, far),
+              rows.row3 * far);
+  add_gathers(sums, g, g.v.y, g.row.y, vec2(e.lower.y, e.upper.y), e.left, e.right, mix(rows.row2, rows.row1, near),
+              mix(rows.row1, rows.row0, near));
+  add_gathers(sums, g, g.v.z, g.row.z, vec2(e.lower.z, e.upper.z), e.left, e.right, mix(rows.row1, rows.row0, far),
+              mix(rows.row2, rows.row1, far));
   return mix(sums.x, sums.y, k.fraction.x);
 }
 
@@ -68,16 +85,19 @@ float covering_radius(Kernel k, float width, int texels) {
 float blocked_share_any(ShadowPoint p, int mip, float width, int texels) {
   Kernel k = make_kernel(p, mip, texels);
   float radius = covering_radius(k, width, texels);
+  SearchCone cone = kernel_cone(p, k, width);
   vec4 all = vec4(0.0), blocked = vec4(0.0);
   for (int y = 1; y < texels; y += 2) {
     for (int x = 1; x < texels; x += 2) {
       vec2 corner = k.base + vec2(x, y);
       vec2 off = corner - k.at;
       vec4 weight = covered(radius, off.x + vec4(-0.5, 0.5, 0.5, -0.5), off.y + vec4(0.5, 0.5, -0.5, -0.5));
+      vec4 least = max(cone_depths(cone, off.x + vec4(-0.5, 0.5, 0.5, -0.5)),
+                       cone_depths(cone, off.y + vec4(0.5, 0.5, -0.5, -0.5)));
       corner = clamp(corner, vec2(1.0), vec2(k.square.size - 1.0));
       all += weight;
-      vec4 depth = gather_depth(k, corner);
-      blocked += weight * coverage(depth) * vec4(greaterThan(depth, gather_threshold(k, corner, k.least)));
+      vec4 depth = gather_depth(k, corner), threshold = max(gather_threshold(k, corner, k.least), least);
+      blocked += weight * coverage(depth) * vec4(greaterThan(depth, threshold));
     }
   }
   return dot(blocked, vec4(1.0)) / dot(all, vec4(1.0));
@@ -100,36 +120,35 @@ FilterMips filter_mips(ShadowPoint p, float width) {
   return FilterMips(fine, min(fine + 1, last), blend);
 }
 
+// Whether the kernel of a penumbra needs other cube faces. Beyond the penumbra and a texel, weights are close to 0.
+bool filter_leaves_face(ShadowPoint p, FilterMips mips, float width) {
+  return leaves_cube_face(p, 0.5 * width + power_of_two(mips.fine));
+}
+
 #ifdef GLOAM_SHADOWS_CROSSING
-// Blocked share of the kernels that leave the receiver's cube face, texel by texel. First the kernel in the fine mip,
-// if it leaves the face, then the one in the coarse mip, which leaves the face whenever the fine one does.
-float blocked_share_across(ShadowPoint p, FilterMips mips, float width) {
-  const int texels = kKernel * kKernel;
-  int i = leaves_cube_face(p, kernel_reach(mips.fine, kKernel)) ? 0 : texels;
-  int end = mips.blend > 0.0 ? 2 * texels : texels;
-  float share = 0.0, all = 0.0, blocked = 0.0;
-  bool across = leaves_cube_face(p, kernel_reach(mips.coarse, kKernel));
-  while (across && i < end) {  // not do … while: a repeated body would change the sums, see never()
-    bool fine = i < texels;
-    int mip = fine ? mips.fine : mips.coarse;
-    Kernel k = make_kernel(p, mip, kKernel);
-    int texel = fine ? i : i - texels;
-    vec2 cell = k.base + vec2(texel % kKernel, texel / kKernel) + 0.5;
-    float weight = covered(covering_radius(k, width, kKernel), vec4(cell.x - k.at.x), vec4(cell.y - k.at.y)).x;
-    vec2 at = cell * k.square.texel;
-    float rise;
-    float covered_share;
-    float depth = cube_depth(p, at, mip, rise, covered_share);
+// Blocked share of a kernel that leaves the receiver's cube face, texel by texel, in the finest mip whose N × N texels
+// hold the penumbra. Texels of another face do not lie on the grid of the receiver's, so each is weighted where it is.
+float blocked_share_across(ShadowPoint p, float width, bool across) {
+  int mip = clamp(ceil_log2(max(width / float(kKernel - 1), 1.0)), 0, coarsest_mip(p, kKernel));
+  Kernel k = make_kernel(p, mip, kKernel);
+  SearchCone cone = kernel_cone(p, k, width);
+  // A texel of the kernel and one of the map's edges blur by 1/12 texel² each, a disc of radius r by r² / 4.
+  float radius = covering_radius(k, width, kKernel);
+  radius = sqrt(max(radius * radius - 2.0 / 3.0, 0.25));
+  float all = 0.0, blocked = 0.0;
+  int i = 0;
+  while (across && i < kKernel * kKernel) {  // not do … while: a repeated body would change the sums, see never()
+    vec2 at = (k.base + vec2(i % kKernel, i / kKernel) + 0.5) * k.square.texel;
+    float rise, share;
+    float depth = cube_depth(p, at, mip, rise, share);
+    vec2 off = at / k.square.texel - k.at;
+    vec4 least = cone_depths(cone, vec4(off, 0.0, 0.0));
+    float weight = covered(radius, off.xxxx, off.yyyy).x;
     all += weight;
-    blocked += depth > tap_threshold(p, k, at, k.least, rise) ? weight * covered_share : 0.0;
+    blocked += depth > max(tap_threshold(p, k, at, k.least, rise), max(least.x, least.y)) ? weight * share : 0.0;
     ++i;
-    if (i % texels == 0) {
-      share += (fine ? 1.0 - mips.blend : mips.blend) * blocked / all;
-      all = 0.0;
-      blocked = 0.0;
-    }
   }
-  return share;
+  return all > 0.0 ? blocked / all : 0.0;
 }
 #endif
 
@@ -137,6 +156,7 @@ float blocked_share_across(ShadowPoint p, FilterMips mips, float width) {
 float filtered_visibility(ShadowPoint p, float width) {
   float near = near_visibility(p, -width, width < 0.0);
   FilterMips mips = filter_mips(p, width);
+  bool across = filter_leaves_face(p, mips, width);
   float share = 0.0;
   int turns = mips.blend > 0.0 || kFullPenumbra != 0u ? 2 : 1;
   int turn = 0;
@@ -149,10 +169,10 @@ float filtered_visibility(ShadowPoint p, float width) {
 #else
     float blocked = kKernel == 8 ? blocked_share_8(p, mip, width) : blocked_share_any(p, mip, width, kKernel);
 #endif
-    share += leaves_cube_face(p, kernel_reach(mip, kKernel)) ? 0.0 : part * blocked;
+    share += across ? 0.0 : part * blocked;
   } while (++turn < turns);
 #ifdef GLOAM_SHADOWS_CROSSING
-  share += blocked_share_across(p, mips, width);
+  share += blocked_share_across(p, width, across);
 #endif
   return width < 0.0 ? near : 1.0 - share;
 }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "tests/modules/shadows/rig.h"
+#include "tests/modules/shadows/support/traced_disc.h"
 
 // Lamps as people build them: what blocks is about as near to the lamp as the lamp is wide. Judged against rays to the
 // emitter's disc.
@@ -19,28 +20,12 @@ using shaders::ShadowProbe;
 constexpr std::uint32_t kFaceSize = 256;
 constexpr double kFaceTan = 1.0 + 8.0 / kFaceSize;  // a rim of four texels
 constexpr int kReceivers = 600;
-constexpr std::uint32_t kWide = 1, kAll = 2;     // shadows.near
-constexpr double kGolden = 2.39996322972865332;  // golden angle
+constexpr std::uint32_t kWide = 1, kAll = 2;  // shadows.near
 
 class NearBlockers : public ShadowKernelTest {
  protected:
   static uvec2 origin(int face) {
     return {static_cast<std::uint32_t>(face) % 4 * kFaceSize, static_cast<std::uint32_t>(face) / 4 * kFaceSize};
-  }
-  /// Part of the emitter, a disc at the origin that faces `at`, that rays from `at` reach.
-  static double traced(const RayScene& scene, const dvec3& at, double width_m) {
-    constexpr int kRays = 1024;
-    const dvec3 toward = normalize(at);
-    const dvec3 side = normalize(cross(toward, std::abs(toward.y) < 0.9 ? dvec3(0, 1, 0) : dvec3(1, 0, 0)));
-    const dvec3 up = cross(side, toward);
-    int reached = 0;
-    for (int i = 0; i < kRays; ++i) {
-      const double radius = 0.5 * width_m * std::sqrt((i + 0.5) / kRays), angle = i * kGolden;
-      const dvec3 end = radius * (std::cos(angle) * side + std::sin(angle) * up);
-      const double t = scene(at, end - at);
-      reached += !(t > 0.0 && t < 1.0) ? 1 : 0;
-    }
-    return static_cast<double>(reached) / kRays;
   }
   /// Judges points in all directions, 4 m from the lamp. near: shadows.near.
   void expect_near_rays(const std::string& name, const RayScene& scene, double width_m, double near_m,
@@ -62,9 +47,9 @@ class NearBlockers : public ShadowKernelTest {
     int partly = 0;
     for (int i = 0; i < kReceivers; ++i) {
       const double y = 1.0 - (2.0 * i + 1.0) / kReceivers, r = std::sqrt(1.0 - y * y);
-      const dvec3 at = 4.0 * dvec3(r * std::cos(i * kGolden), y, r * std::sin(i * kGolden));
+      const dvec3 at = 4.0 * dvec3(r * std::cos(i * kGoldenAngle), y, r * std::sin(i * kGoldenAngle));
       probes.push_back({.position = vec3(at), .light = 0, .face_normal = vec3(normalize(-at))});
-      expected.push_back(traced(scene, dvec3(vec3(at)), width_m));
+      expected.push_back(traced_disc(scene, dvec3(vec3(at)), dvec3(0.0), normalize(at), width_m));
       partly += expected.back() > 0.05 && expected.back() < 0.95 ? 1 : 0;
     }
     for (const bool standard : {false, true}) {
