@@ -58,6 +58,29 @@ void list_forward_pipelines(const ShadingInputs& inputs, const ShadowsOutputs& s
   for (const SurfaceVariant& variant : variants) list.push_back(surface_pipeline_desc(pass, variant));
 }
 
+void add_blended_layer_passes(FrameBuilder& frame) {
+  const std::span<const Draw> draws = frame.draws().blended;
+  if (draws.empty() || frame.find<BlendedLayerWanted>() == nullptr) return;
+  const SurfacePass depths = front_depth_surface_pass();
+  if (!frame.services().wait_for_pipelines && !frame.request_surfaces(draws, depths)) return;
+  const ImageRef opaque = frame.get<GeometryOutputs>().depth;
+  BlendedLayer layer;
+  {
+    DrawPass pass(frame, "blended_layer");
+    layer.light = pass.target(create_view_image(frame, "blended_light", gpu::Format::rgba16_float), gpu::LoadOp::clear);
+    pass.test_depth(opaque);
+    pass.use(choose_version(frame));
+    read_lighting(pass, frame);
+    pass.surfaces(draws);
+  }
+  DrawPass pass(frame, "blended_layer_depth");
+  layer.depth = pass.target(create_view_image(frame, "blended_depth", depths.color_formats[0]), gpu::LoadOp::clear);
+  pass.test_depth(opaque);
+  pass.use(depths);
+  pass.surfaces(draws);
+  frame.put(layer);
+}
+
 void add_forward_pass(FrameBuilder& frame) {
   if (frame.draws().blended.empty()) return;
   LitOutput& lit = frame.get<LitOutput>();

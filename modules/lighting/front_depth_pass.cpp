@@ -10,6 +10,8 @@ namespace {
 
 constexpr gpu::Format kFrontDepthFormat = gpu::Format::r32_float;
 
+}  // namespace
+
 SurfacePass front_depth_surface_pass() {
   SurfacePass pass;
   pass.module = "lighting";
@@ -19,8 +21,6 @@ SurfacePass front_depth_surface_pass() {
   pass.depth_write = false;
   return pass;
 }
-
-}  // namespace
 
 void add_front_depth_passes(FrameBuilder& frame) {
   const std::span<const Draw> draws = frame.draws().blended;

@@ -19,8 +19,12 @@ void list_deferred_pipelines(const ShadingInputs& inputs, const ShadowsOutputs& 
 
 /// Draws blended surfaces over LitOutput, back to front. Does nothing if there are none.
 void add_forward_pass(FrameBuilder& frame);
+/// Draws BlendedLayer if it is wanted.
+void add_blended_layer_passes(FrameBuilder& frame);
 /// Draws FrontDepth if it is wanted.
 void add_front_depth_passes(FrameBuilder& frame);
+/// Lays the depths of blended surfaces over an r32f image, weighted as their light is.
+[[nodiscard]] SurfacePass front_depth_surface_pass();
 /// Appends the pipelines that add_forward_pass() wants for blended surfaces of these variants.
 void list_forward_pipelines(const ShadingInputs& inputs, const ShadowsOutputs& shadows,
                             std::span<const SurfaceVariant> variants, PipelineList& list);

@@ -64,7 +64,10 @@ class LightingModule final : public Module {
 
   void add_passes(FrameBuilder& frame, PassPhase phase) override {
     if (phase == PassPhase::shading) keep_inputs(frame);
-    if (phase == PassPhase::shading) add_deferred_pass(frame);
+    if (phase == PassPhase::shading) {
+      add_deferred_pass(frame);
+      add_blended_layer_passes(frame);
+    }
     if (phase == PassPhase::translucent) {
       add_forward_pass(frame);
       add_front_depth_passes(frame);

@@ -68,6 +68,16 @@ struct FrontDepth {
 /// FrontDepth, or the depth of opaque surfaces where there is none.
 [[nodiscard]] ImageRef front_depth(FrameBuilder& frame);
 
+/// Another module needs BlendedLayer. It puts this on the board in PassPhase::announce.
+struct BlendedLayerWanted {};
+
+/// The view's blended surfaces alone, before they are drawn over LitOutput, for reflections of them. On the board from
+/// PassPhase::shading on, in views with BlendedLayerWanted that show blended surfaces, once their pipelines are ready.
+struct BlendedLayer {
+  ImageRef light;  ///< rgba16f: premultiplied radiance of those before the opaque surface, and their opacity
+  ImageRef depth;  ///< r32f: sum of their depths, each weighted by its share of the opacity
+};
+
 /// Homogeneous fog of the view. The module that draws it puts it on the board in PassPhase::announce, for modules that
 /// add light which has passed through it on other ways than straight to the camera, and keeps it as a world resource
 /// for references.

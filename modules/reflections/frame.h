@@ -78,7 +78,7 @@ struct MirrorSurfaces {
 /// Tier 1; null images without it.
 struct ScreenSpaceHits {
   ImageRef color;     ///< rgba16f: radiance and confidence
-  ImageRef distance;  ///< rgba8: packed distance in xy
+  ImageRef distance;  ///< rgba8: packed distance in xy; z: 1 if the color holds blended surfaces
 };
 
 /// Light that mirror surfaces reflect.

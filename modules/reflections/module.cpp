@@ -145,12 +145,13 @@ class ReflectionsModule final : public Module {
     return reflection_visualizers(&traced_extras);
   }
   void pipelines(const KnobRegistry& knobs, const gpu::DeviceInfo& device, PipelineList& list) const override {
-    list_reflection_pipelines(reflection_knobs(knobs), device.threads_in_turn, last_probes_, list);
+    list_reflection_pipelines(reflection_knobs(knobs), device.threads_in_turn, last_blended_, last_probes_, list);
   }
   void add_passes(FrameBuilder& frame, PassPhase phase) override {
     if (phase == PassPhase::announce) announce_reflections(frame);
     if (phase == PassPhase::shading) add_reflection_passes(frame, staging_);
     if (const auto* plan = frame.find<ReflectionPlan>()) last_probes_ = plan->probes.size();
+    if (phase == PassPhase::shading) last_blended_ = frame.find<BlendedLayer>() != nullptr;
     if (phase == PassPhase::visualize) add_reflection_view_pass(frame);
   }
   void counters(const World& world, const RenderView& view, CounterSink& sink) const override {
@@ -180,6 +181,7 @@ class ReflectionsModule final : public Module {
 
   Staging staging_{"reflections"};
   std::size_t last_probes_ = 0;  ///< captured probes of the last frame
+  bool last_blended_ = false;    ///< it had a BlendedLayer
 };
 
 }  // namespace

@@ -131,6 +131,8 @@ void announce_reflections(FrameBuilder& frame) {
   if (knobs.light_scale) plan.changed = changed_lights(world, view, captures);
   plan.constants.changed_lights = static_cast<std::uint32_t>(plan.changed.size());
   if (!plan.changed.empty()) frame.put(DiffuseLightWanted{});
+  if (plan.mirror && !plan.planar && knobs.screen_space && !frame.draws().blended.empty())
+    frame.put(BlendedLayerWanted{});
   frame.put(SpecularAmbientTaken{});
   frame.put(std::move(plan));
 }
@@ -151,12 +153,13 @@ void add_reflection_passes(FrameBuilder& frame, Staging& staging) {
   frame.put(ReflectionHandles{uniforms, mirrors.hits, mirrors.light, probes.images});
 }
 
-void list_reflection_pipelines(const ReflectionKnobs& knobs, bool direct, std::size_t probes, PipelineList& list) {
+void list_reflection_pipelines(const ReflectionKnobs& knobs, bool direct, bool blended, std::size_t probes,
+                               PipelineList& list) {
   if (knobs.mode == ReflectionKnobs::Mode::off) return;
   const auto add = [&](const ComputeProgram& program) { list.push_back(pipeline_desc(program, "reflections")); };
   const bool planar = knobs.mode == ReflectionKnobs::Mode::planar, mirror = knobs.mirror() || planar;
   if (mirror) add(mirror_surface_program());
-  if (knobs.screen_space) add(screen_space_program(knobs));
+  if (knobs.screen_space) add(screen_space_program(knobs, blended));
   if (knobs.mirror()) add(proxy_program(knobs));
   if (planar) add(planar_program(knobs));
   if (mirror) add(sharpen_program(knobs.screen_space && !planar));

@@ -18,7 +18,8 @@ void announce_reflections(FrameBuilder& frame);
 void add_reflection_passes(FrameBuilder& frame, Staging& staging);
 
 /// Pipelines that add_reflection_passes() uses with these knobs in a world with proxies. direct: on a device that runs
-/// threads in turn. probes: number of captured probes.
-void list_reflection_pipelines(const ReflectionKnobs& knobs, bool direct, std::size_t probes, PipelineList& list);
+/// threads in turn. blended: views have a BlendedLayer. probes: number of captured probes.
+void list_reflection_pipelines(const ReflectionKnobs& knobs, bool direct, bool blended, std::size_t probes,
+                               PipelineList& list);
 
 }  // namespace gloam

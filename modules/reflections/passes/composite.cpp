@@ -35,6 +35,7 @@ ImageRef add_sharpen_pass(FrameBuilder& frame, const ReflectionUniforms& uniform
   pass.read("color_image", light.color);
   pass.read("surface_image", light.surface);
   pass.read("ssr_color", hits.color);
+  pass.read("ssr_distance", hits.distance);
   pass.read("lit_image", frame.get<LitOutput>().color);
   const ImageRef upscaled =
       pass.write("upscaled_image", create_view_image(frame, "reflection_upscaled", gpu::Format::rgba16_float));

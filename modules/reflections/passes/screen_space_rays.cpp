@@ -2,21 +2,28 @@
 // SPDX-License-Identifier: MIT
 #include "modules/reflections/passes/screen_space_rays.h"
 
+#include "modules/lighting/outputs.h"
 #include "modules/reflections/passes/mirror_surfaces.h"
 #include "shaders/reflections/shaders.h"
 
 namespace gloam {
 
-ComputeProgram screen_space_program(const ReflectionKnobs& knobs) {
-  return {shaders::reflections::screen_space_rays_comp, {{"kHierarchical", knobs.hierarchical ? 1u : 0u}}};
+ComputeProgram screen_space_program(const ReflectionKnobs& knobs, bool blended) {
+  return {blended ? shaders::reflections::screen_space_rays_blended_comp : shaders::reflections::screen_space_rays_comp,
+          {{"kHierarchical", knobs.hierarchical ? 1u : 0u}}};
 }
 
 ScreenSpaceHits add_screen_space_pass(FrameBuilder& frame, const ReflectionKnobs& knobs,
                                       const ReflectionUniforms& uniforms, const MirrorTiles& tiles) {
-  ComputePass pass(frame, "reflection_screen_space", screen_space_program(knobs));
+  const BlendedLayer* blended = frame.find<BlendedLayer>();
+  ComputePass pass(frame, "reflection_screen_space", screen_space_program(knobs, blended != nullptr));
   pass.read("reflection", uniforms.block);
   read_geometry(pass, frame.get<GeometryOutputs>());
   pass.read("lit_image", frame.get<LitOutput>().color);
+  if (blended != nullptr) {
+    pass.read("blended_light", blended->light);
+    pass.read("blended_depth", blended->depth);
+  }
   const std::uint32_t scale = uniforms.constants.scale;
   ScreenSpaceHits hits;
   hits.color = pass.write("color_image", create_view_image(frame, "ssr_color", gpu::Format::rgba16_float, scale));

@@ -7,9 +7,10 @@
 
 namespace gloam {
 
-[[nodiscard]] ComputeProgram screen_space_program(const ReflectionKnobs& knobs);
+[[nodiscard]] ComputeProgram screen_space_program(const ReflectionKnobs& knobs, bool blended);
 
-/// Tier 1: follows a mirrored ray from each mirror surface through the depth image.
+/// Tier 1: follows a mirrored ray from each mirror surface through the depth image, and through BlendedLayer if there
+/// is one.
 [[nodiscard]] ScreenSpaceHits add_screen_space_pass(FrameBuilder& frame, const ReflectionKnobs& knobs,
                                                     const ReflectionUniforms& uniforms, const MirrorTiles& tiles);
 

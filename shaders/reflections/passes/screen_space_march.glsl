@@ -49,8 +49,18 @@ float distance_at(ScreenRay ray, float s) { return ray.length_m * (s * ray.w0 / 
 // The inverse of distance_at, as a share of the length.
 float place_of(ScreenRay ray, float share) { return share * ray.w1 / max(mix(ray.w0, ray.w1, share), 1e-30); }
 
+#ifdef GLOAM_BLENDED_LAYER
+bool through_blended = false;  // rays are followed through BlendedLayer, not through opaque surfaces
+#endif
+
 float depth_under(vec2 pixel) {
-  return texelFetch(depth_image, clamp(ivec2(pixel), ivec2(0), ivec2(view.size) - 1), 0).r;
+  ivec2 at = clamp(ivec2(pixel), ivec2(0), ivec2(view.size) - 1);
+#ifdef GLOAM_BLENDED_LAYER
+  // Mean depth of the blended surfaces, weighted by their opacity.
+  float opacity = texelFetch(blended_light, at, 0).a;
+  if (through_blended) return opacity > 1e-3 ? texelFetch(blended_depth, at, 0).r / opacity : 0.0;
+#endif
+  return texelFetch(depth_image, at, 0).r;
 }
 
 // How far behind the visible surface the ray is at s, in metres; negative in front of it. Within the pixel of its

@@ -8,7 +8,8 @@
 
 // Brings the reflection images to the size of the picture, in the listed tiles: upscales them, bends the lookup by the
 // normal of each pixel, and adds the fog on the reflected path. Where screen space has found a hit on a smooth surface,
-// the lit picture is looked up again for each pixel, so that mirrors are as sharp as the picture.
+// the lit picture is looked up again for each pixel, so that mirrors are as sharp as the picture. That picture has no
+// blended surfaces yet, so where the ray met some, the hit stays as it is.
 
 layout(constant_id = 0) const uint kColumns = 1u;  // the greater width of the blur decides
 layout(constant_id = 1) const uint kScreenSpace = 1u;
@@ -22,6 +23,7 @@ layout(set = 0, binding = 5) uniform sampler2D color_image;
 layout(set = 0, binding = 6) uniform sampler2D surface_image;
 layout(set = 0, binding = 7) uniform sampler2D ssr_color;
 layout(set = 0, binding = 8) uniform sampler2D lit_image;
+layout(set = 0, binding = 12) uniform sampler2D ssr_distance;
 layout(set = 0, binding = 9, rgba16f) uniform writeonly image2D upscaled_image;  // premultiplied radiance, confidence
 
 #define GLOAM_MIRROR_TILES 10
@@ -75,7 +77,8 @@ vec4 reflection_of(ivec2 pixel, ivec2 texel) {
   if (kScreenSpace != 0u) {
     vec4 surface = texelFetch(surface_image, texel, 0);
     float sigma = blur_sigma(texel, surface.x, surface.y), same;
-    float screen = surface.y > 0.0 ? texelFetch(ssr_color, texel, 0).a : 0.0;
+    bool opaque = surface.y > 0.0 && texelFetch(ssr_distance, texel, 0).z == 0.0;
+    float screen = opaque ? texelFetch(ssr_color, texel, 0).a : 0.0;
     vec3 ray = reflect(-normalize(to_viewer(view, position)), normal);
     vec3 light = light_at_hit(position, ray, m.distance_m, same) * m.confidence;
     float sharp = same * smoothstep(kSureScreen, 1.0, screen) * (1.0 - smoothstep(kSharp, kBlurred, sigma));
