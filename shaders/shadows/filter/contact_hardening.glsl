@@ -126,10 +126,32 @@ bool filter_leaves_face(ShadowPoint p, FilterMips mips, float width) {
 }
 
 #ifdef GLOAM_SHADOWS_CROSSING
+// The direction of the receiver in its cube face, and what makes the outline of the emitter, a sphere, a circle.
+struct RoundOutline {
+  vec3 toward;     // tangents and 1
+  float to_texel;  // texels of mip 0 per tangent
+  float stretch;   // half of the outline's long axis in the face, over the radius of the circle of the same area
+};
+
+RoundOutline round_outline(ShadowPoint p) {
+  float to_texel = 0.5 * p.size / p.tan_half;
+  vec3 toward = vec3((p.at - 0.5 * p.size) / to_texel, 1.0);
+  return RoundOutline(toward, to_texel, sqrt(length(toward)));
+}
+
+// Distance of a texel coordinate of mip 0 from the receiver, in texels, scaled so that the emitter's outline is the
+// circle of the same area.
+float round_distance(ShadowPoint p, RoundOutline o, vec2 at) {
+  vec3 v = vec3((at - 0.5 * p.size) / o.to_texel, 1.0);
+  float along = max(dot(v, o.toward), 1e-3);
+  return length(v * (dot(o.toward, o.toward) / along) - o.toward) * o.stretch * o.to_texel;
+}
+
 // Blocked share of a kernel that leaves the receiver's cube face, texel by texel, in the finest mip whose N × N texels
 // hold the penumbra. Texels of another face do not lie on the grid of the receiver's, so each is weighted where it is.
 float blocked_share_across(ShadowPoint p, float width, bool across) {
-  int mip = clamp(ceil_log2(max(width / float(kKernel - 1), 1.0)), 0, coarsest_mip(p, kKernel));
+  RoundOutline outline = round_outline(p);
+  int mip = clamp(ceil_log2(max(width * outline.stretch / float(kKernel - 1), 1.0)), 0, coarsest_mip(p, kKernel));
   Kernel k = make_kernel(p, mip, kKernel);
   SearchCone cone = kernel_cone(p, k, width);
   // A texel of the kernel and one of the map's edges blur by 1/12 texel² each, a disc of radius r by r² / 4.
@@ -143,7 +165,7 @@ float blocked_share_across(ShadowPoint p, float width, bool across) {
     float depth = cube_depth(p, at, mip, rise, share);
     vec2 off = at / k.square.texel - k.at;
     vec4 least = cone_depths(cone, vec4(off, 0.0, 0.0));
-    float weight = covered(radius, off.xxxx, off.yyyy).x;
+    float weight = covered(radius, vec4(round_distance(p, outline, at) / k.square.texel), vec4(0.0)).x;
     all += weight;
     blocked += depth > max(tap_threshold(p, k, at, k.least, rise), max(least.x, least.y)) ? weight * share : 0.0;
     ++i;
