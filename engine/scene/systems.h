@@ -31,7 +31,9 @@ void animation_system(View<const SourceNode> sources, View<LocalTransform> poses
 
 /// Computes the WorldTransform of every node. A node with neither LocalTransform nor LocalMatrix gets its parent's
 /// matrix; if it has no Parent either, the system keeps the WorldTransform that the host set. A node whose parent is
-/// dead or has no WorldTransform is a root.
+/// dead or has no WorldTransform is a root. Only nodes whose pose, parent or ancestors have changed since the last call
+/// are composed; poses are compared, so that writes to them need no mark_changed. A host that writes the WorldTransform
+/// of any other node must mark it as changed, and the system puts it right again.
 using TransformView = View<WorldTransform, Maybe<const LocalTransform>, Maybe<const LocalMatrix>, Maybe<const Parent>>;
 void transform_system(TransformView nodes, Resource<TransformTree> tree, JobExecutor& jobs);
 

@@ -62,15 +62,22 @@ void build_levels(std::span<const std::uint32_t> parents, std::span<std::uint32_
   for (std::uint32_t row = 0; row < depths.size(); ++row) levels.order[next[depths[row]]++] = row;
 }
 
-void compose_worlds(const TransformLevels& levels, std::span<const std::uint32_t> parents, JobExecutor& executor,
-                    std::span<dmat4> matrices) {
+void mark_descendants(const TransformLevels& levels, std::span<const std::uint32_t> parents,
+                      std::span<std::uint8_t> marked) {
+  if (levels.starts.size() < 2) return;
+  for (const std::uint32_t row : std::span(levels.order).subspan(levels.starts[1]))
+    marked[row] = marked[row] | marked[parents[row]];
+}
+
+void compose_worlds(const TransformLevels& levels, std::span<const std::uint32_t> parents,
+                    std::span<const std::uint8_t> marked, JobExecutor& executor, std::span<dmat4> matrices) {
   for (std::size_t level = 1; level + 1 < levels.starts.size(); ++level) {
     const auto rows =
         std::span(levels.order).subspan(levels.starts[level], levels.starts[level + 1] - levels.starts[level]);
     executor.parallel_for(rows.size(), kTransformsPerJob, [&](JobRange range) {
       for (std::size_t i = range.begin; i < range.end; ++i) {
         const std::uint32_t row = rows[i];
-        matrices[row] = matrices[parents[row]] * matrices[row];
+        if (marked[row] != 0) matrices[row] = matrices[parents[row]] * matrices[row];
       }
     });
   }

@@ -28,8 +28,13 @@ struct TransformLevels {
 /// contradicts the parents, all depths are computed from the parents and overwritten. A cycle asserts.
 void build_levels(std::span<const std::uint32_t> parents, std::span<std::uint32_t> depths, TransformLevels& levels);
 
-/// matrices: in, each row's matrix relative to its parent; out, its world matrix. The rows of a level run in parallel.
-void compose_worlds(const TransformLevels& levels, std::span<const std::uint32_t> parents, JobExecutor& executor,
-                    std::span<dmat4> matrices);
+/// Marks the rows below marked rows, too.
+void mark_descendants(const TransformLevels& levels, std::span<const std::uint32_t> parents,
+                      std::span<std::uint8_t> marked);
+
+/// matrices of marked rows: in, the matrix relative to the parent; out, the world matrix. Those of all other rows: the
+/// world matrix, which is only read. The rows of a level run in parallel.
+void compose_worlds(const TransformLevels& levels, std::span<const std::uint32_t> parents,
+                    std::span<const std::uint8_t> marked, JobExecutor& executor, std::span<dmat4> matrices);
 
 }  // namespace gloam

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <memory>
+#include <random>
 #include <vector>
 
 #include "engine/scene/gltf/import.h"
@@ -123,6 +125,95 @@ TEST_F(TransformSystem, a_micrometre_is_kept_ten_kilometres_out) {
   world_.add(near, Parent{far, 1});
   run();
   EXPECT_NEAR(position(near).x - position(far).x, 1e-6, 1e-11);
+}
+
+TEST_F(TransformSystem, changes_of_any_kind_between_frames_equal_the_recursive_product) {
+  std::mt19937 random(3);
+  test::Forest forest = test::random_forest(3, 400);
+  std::vector<Entity> entities;
+  for (std::uint32_t row = 0; row < forest.parents.size(); ++row) {
+    entities.push_back(world_.create(WorldTransform{}));
+    if (row % 3 == 0) {
+      world_.add(entities[row], LocalMatrix{forest.locals[row]});
+    } else {
+      world_.add(entities[row], forest.poses[row]);
+    }
+    if (row % 5 == 0) world_.add(entities[row], MeshInstance{});
+  }
+  for (std::uint32_t row = 0; row < forest.parents.size(); ++row)
+    if (forest.parents[row] != kNoParentRow)
+      world_.add(entities[row], Parent{entities[forest.parents[row]], forest.depths[row]});
+  for (int frame = 0; frame < 60; ++frame) {
+    // Half of the frames change nothing, the others a few nodes: poses, kinds of poses, parents, world matrices.
+    for (std::uint32_t change = 0; frame % 2 == 1 && change < random() % 4; ++change) {
+      const auto row = static_cast<std::uint32_t>(random() % 400);
+      switch (random() % 4) {
+        case 0:
+          forest.poses[row] = test::random_pose(random);
+          forest.locals[row] = local_matrix(forest.poses[row]);
+          if (auto* matrix = world_.try_get<LocalMatrix>(entities[row])) {
+            matrix->matrix = forest.locals[row];
+          } else {
+            world_.get<LocalTransform>(entities[row]) = forest.poses[row];
+          }
+          break;
+        case 1:
+          if (!world_.remove<LocalMatrix>(entities[row])) {
+            world_.add(entities[row], LocalMatrix{forest.locals[row]});
+          } else {
+            world_.add(entities[row], forest.poses[row]);
+          }
+          break;
+        case 2:
+          forest.parents[row] = kNoParentRow;
+          static_cast<void>(world_.remove<Parent>(entities[row]));
+          break;
+        case 3:
+          world_.add(entities[row], WorldTransform{});  // marks it as changed
+          break;
+      }
+    }
+    run();
+    for (std::uint32_t row = 0; row < forest.parents.size(); ++row) {
+      const dmat4& found = world_.get<WorldTransform>(entities[row]).matrix;
+      ASSERT_LT(test::relative_difference(found, test::world_by_recursion(forest, row)), 1e-12) << frame << " " << row;
+    }
+  }
+}
+
+TEST_F(TransformSystem, what_rests_is_not_composed_again) {
+  const Entity parent = node(dvec3(1.0, 0.0, 0.0));
+  const Entity child = node(dvec3(0.0, 1.0, 0.0));
+  const Entity resting = node(dvec3(0.0, 0.0, 1.0));
+  world_.add(child, Parent{parent, 1});
+  run();
+  // A matrix that is written without a mark stays until the node is composed.
+  for (const Entity entity : {parent, child, resting}) world_.get<WorldTransform>(entity).matrix[3].x = 77.0;
+  run();
+  for (const Entity entity : {parent, child, resting}) EXPECT_EQ(position(entity).x, 77.0);
+  world_.get<LocalTransform>(parent).translation.x = 2.0;
+  run();
+  EXPECT_EQ(position(parent), dvec3(2.0, 0.0, 0.0));
+  EXPECT_EQ(position(child), dvec3(2.0, 1.0, 0.0));
+  EXPECT_EQ(position(resting).x, 77.0);
+  world_.mark_changed<WorldTransform>(resting);
+  run();
+  EXPECT_EQ(position(resting), dvec3(0.0, 0.0, 1.0));
+}
+
+TEST_F(TransformSystem, a_pose_that_is_not_a_number_is_no_change) {
+  const Entity bad = node(dvec3(std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0));
+  run();
+  const auto view = world_.view<const WorldTransform>();
+  const Tick seen = view.changed_since<const WorldTransform>(0, [](std::span<const WorldTransform>) {});
+  run();
+  std::size_t changed = 0;
+  static_cast<void>(
+      view.changed_since<const WorldTransform>(seen, [&](std::span<const WorldTransform> c) { changed += c.size(); }));
+  EXPECT_EQ(changed, 0u);
+  world_.get<LocalTransform>(bad).translation.x = 3.0;
+  run();
+  EXPECT_EQ(position(bad), dvec3(3.0, 0.0, 0.0));
 }
 
 TEST_F(TransformSystem, only_what_moved_is_marked_as_changed) {

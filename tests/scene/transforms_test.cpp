@@ -51,7 +51,7 @@ TEST(Transforms, worlds_equal_the_recursive_product_for_random_forests) {
     std::vector<dmat4> matrices = forest.locals;
     TransformLevels levels;
     build_levels(forest.parents, depths, levels);
-    compose_worlds(levels, forest.parents, *executor, matrices);
+    compose_worlds(levels, forest.parents, std::vector<std::uint8_t>(matrices.size(), 1), *executor, matrices);
     for (std::uint32_t row = 0; row < matrices.size(); ++row)
       EXPECT_LT(test::relative_difference(matrices[row], test::world_by_recursion(forest, row)), 1e-12) << seed;
   }
@@ -92,7 +92,8 @@ TEST(Transforms, no_rows_are_no_levels) {
   build_levels({}, {}, levels);
   EXPECT_TRUE(levels.order.empty());
   const auto executor = make_serial_executor();
-  compose_worlds(levels, {}, *executor, {});
+  mark_descendants(levels, {}, {});
+  compose_worlds(levels, {}, {}, *executor, {});
 }
 
 }  // namespace

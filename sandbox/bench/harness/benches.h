@@ -20,6 +20,8 @@ void add_frame_capture_benches(BenchRegistry& registry);
 void add_asset_benches(BenchRegistry& registry);
 /// CPU time of the frame graph: declaring passes with a cached plan.
 void add_frame_declaration_benches(BenchRegistry& registry);
+/// The transform system over 3,000 nodes that rest, or of which few move.
+void add_transform_benches(BenchRegistry& registry);
 /// Time of the light searches and of shading with their lists: against brute force, against the gather pass, by number
 /// of lights.
 void add_light_gpu_benches(BenchRegistry& registry);

@@ -61,6 +61,7 @@ BenchRegistry make_bench_registry() {
   add_ecs_benches(registry);
   add_job_benches(registry);
   add_frame_declaration_benches(registry);
+  add_transform_benches(registry);
   add_frame_benches(registry);
   add_frame_wall_benches(registry);
   add_frame_size_benches(registry);

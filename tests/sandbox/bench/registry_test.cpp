@@ -95,7 +95,8 @@ TEST(BenchRegistry, the_programs_own_benches_have_the_documented_ids) {
   }
   for (const char* id : {"empty", "empty.one_thread", "spawn", "parallel_for_efficiency", "graph_node", "fork_join"})
     EXPECT_TRUE(ids.contains("jobs." + std::string(id))) << id;
-  for (const char* id : {"declare_100_passes", "scene", "gather48", "scene_over_gather48"})
+  for (const char* id :
+       {"declare_100_passes", "static_transforms", "moving_transforms", "scene", "gather48", "scene_over_gather48"})
     EXPECT_TRUE(ids.contains("frame." + std::string(id))) << id;
   EXPECT_TRUE(ids.contains("ecs.random_get_over_unchecked_bare"));
 }
