@@ -219,6 +219,13 @@ class World {
     check_resource<R>(false);
     return find_view_resource<R>(view);
   }
+  /// Calls f(R&) for each view that has an R, in any order.
+  template <class R, class F>
+  void each_view_resource(F&& f) {
+    check_resource<R>(true);
+    for (auto& [view, resources] : view_resources_)
+      if (R* const found = resources.template find<R>()) f(*found);
+  }
   /// Removes all resources of a view.
   void remove_view(ViewId view) { view_resources_.erase(view.value); }
 

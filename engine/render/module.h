@@ -131,6 +131,9 @@ class Module {
   /// as not demanded: no systems, no passes, and its memory is freed after 120 frames. Asked for the knobs of the frame
   /// if the world demands the module, and for the knobs of each view.
   [[nodiscard]] virtual std::string switched_off(const World&, const KnobRegistry&) const { return {}; }
+  /// Called in each frame, before the systems of the world run, if the world does not demand the module: takes away
+  /// what its systems left in the world, so that nothing there is out of date. Must be cheap if nothing is left.
+  virtual void leave_world(World&) const {}
   /// Whether the module itself draws something into the view that lights may light: surfaces, sprites or fog. If there
   /// is none of it, no mesh and no geometry of the host, only sky is seen (SeenSurfaces), and modules that light, shade
   /// or smooth surfaces are idle. A module that only works on what others draw returns false. Called like demand() with

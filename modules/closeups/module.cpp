@@ -118,6 +118,8 @@ class CloseupsModule final : public Module {
                                    std::to_string(views.pairs.size()) + " with close-up maps"};
   }
 
+  void leave_world(World& world) const override { leave_closeup_world(world); }
+
   [[nodiscard]] bool needs_casters(const World&, const KnobRegistry& knobs) const override {
     return knobs.value(kShadowMode) == ShadowMode::deferred && closeup_knobs(knobs).max_pairs > 0;
   }

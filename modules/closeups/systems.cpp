@@ -137,6 +137,18 @@ void register_closeup_resources(World& world) {
   world.ensure_resource<CloseupLightNames>();
 }
 
+void leave_closeup_world(World& world) {
+  std::vector<Entity> pairs;
+  world.view<const CloseupPair>().each([&](Entity entity, const CloseupPair&) { pairs.push_back(entity); });
+  for (const Entity pair : pairs) world.destroy(pair);
+  world.each_view_resource<CloseupViews>([](CloseupViews& views) { views = {}; });
+  if (world.resource<CloseupSubjects>().subjects.empty()) return;
+  world.set_resource(CloseupSubjects{});
+  world.set_resource(CloseupReceivers{});
+  world.set_resource(CloseupMeshes{});
+  world.set_resource(CloseupLightNames{});
+}
+
 void prepare_closeup_view(World& world, ViewId view) {
   if (world.try_view_resource<CloseupSettings>(view) == nullptr) world.set_view_resource(view, CloseupSettings{});
   if (world.try_view_resource<CloseupViews>(view) == nullptr) world.set_view_resource(view, CloseupViews{});

@@ -35,6 +35,9 @@ void add_closeup_systems(Schedule& schedule);
 /// Adds the world resources that the systems need.
 void register_closeup_resources(World& world);
 
+/// Takes away what the systems left in a world: the pairs, and the content of resources.
+void leave_closeup_world(World& world);
+
 /// Adds the view resources that the systems need, where they are missing.
 void prepare_closeup_view(World& world, ViewId view);
 

@@ -89,6 +89,11 @@ TEST(Resources, each_view_has_its_own) {
   for (std::uint32_t i = 1; i < 100; ++i) world.set_view_resource(ViewId{i}, Clock{});
   EXPECT_EQ(&world.view_resource<Clock>(mirror), &clock) << "other views do not move it";
 
+  double sum = 0.0;
+  world.each_view_resource<Clock>([&](Clock& each) { sum += each.seconds++; });
+  EXPECT_EQ(sum, 3);
+  EXPECT_EQ(world.view_resource<Clock>(mirror).seconds, 3);
+
   world.remove_view(mirror);
   EXPECT_EQ(world.try_view_resource<Clock>(mirror), nullptr);
   EXPECT_EQ(std::as_const(world).try_view_resource<Clock>(ViewId{1000}), nullptr);

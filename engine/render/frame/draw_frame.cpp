@@ -148,6 +148,7 @@ Status draw(RendererParts& parts, World& world, std::span<const ViewRequest> req
   // A view with knobs of its own may switch on what the others switch off.
   if (std::ranges::all_of(requests, [](const ViewRequest& request) { return request.settings.knobs.empty(); }))
     parts.modules.switch_off(world, frame->knobs, parts.schedule);
+  parts.modules.leave(world);
   for (const Module* module : parts.modules.demanded()) module->prepare_world(world, frame->knobs);
   GLOAM_TRY(run_systems(*frame, std::nullopt, parts));
   GLOAM_TRY(begin_views(*frame, requests, parts.modules.list()));

@@ -35,6 +35,11 @@ void ModuleSet::switch_off(const World& world, const KnobRegistry& knobs, Schedu
   }
 }
 
+void ModuleSet::leave(World& world) const {
+  for (std::size_t i = 0; i < modules_.size(); ++i)
+    if (!uses_[i].demand.needed) modules_[i]->leave_world(world);
+}
+
 std::vector<Module*> ModuleSet::demanded() const {
   std::vector<Module*> found;
   for (std::size_t i = 0; i < modules_.size(); ++i)

@@ -48,6 +48,8 @@ class ModuleSet {
   void begin_frame(const World& world, Schedule& schedule);
   /// After begin_frame: modules that are switched off with these knobs are not demanded.
   void switch_off(const World& world, const KnobRegistry& knobs, Schedule& schedule);
+  /// After switch_off: modules that are not demanded leave the world (Module::leave_world).
+  void leave(World& world) const;
   /// The answer of the last begin_frame and switch_off.
   [[nodiscard]] const Demand& demand(std::size_t index) const { return uses_[index].demand; }
   /// The modules that the world demands, in list order.

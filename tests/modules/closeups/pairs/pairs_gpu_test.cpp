@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <array>
+
+#include "modules/closeups/pairs/bounds.h"
 #include "tests/modules/closeups/scene.h"
 
 // Several pairs: composed one after another into the same tiles, in any order, with and without their own maps, added
@@ -247,6 +250,33 @@ TEST_F(CloseupPairs, that_are_switched_are_right_in_that_very_frame) {
   world.get<Light>(lamps[0]).intensity = 20.0f;
   world.mark_changed<Light>(lamps[0]);
   expect_as_fresh("light");
+}
+
+TEST_F(CloseupPairs, leave_nothing_in_a_world_that_does_not_demand_them) {
+  put_stage(LightKind::point, 0.05f);
+  put_halves();
+  const auto left_behind = [&] {
+    const CloseupViews& views = world.view_resource<CloseupViews>(ViewId{0});
+    return world.view<const CloseupPair>().size() + views.pairs.size() + views.in_view + views.skipped +
+           world.resource<CloseupSubjects>().subjects.size() + world.resource<CloseupMeshes>().deformed.size();
+  };
+  draw();
+  draw();
+  const CloseupShot with = shot();
+  ASSERT_EQ(world.view<const CloseupPair>().size(), 2u);
+  for (const auto& [knob, off, on] :
+       {std::array{"closeups.max_pairs", "0", "8"}, std::array{"shadows.mode", "off", "deferred"}}) {
+    set(knob, off);
+    draw();
+    EXPECT_EQ(left_behind(), 0u) << knob;
+    set(knob, on);
+    draw();
+    expect_same_shots(shot(), with, std::string(knob) + " switched on again");
+    EXPECT_EQ(world.view<const CloseupPair>().size(), 2u);
+  }
+  for (const Entity subject : {left.root, right.root}) world.get<CloseupSubject>(subject).enabled = false;
+  draw();
+  EXPECT_EQ(left_behind(), 0u) << "no subject";
 }
 
 }  // namespace
