@@ -116,14 +116,20 @@ void FrameBuilder::read_vertices(PassBuilder& pass, bool motion) {
   }
 }
 
+void FrameBuilder::use_caster_vertices(const Caster& caster) {
+  if (caster.deform != kNone) shared_.find<Deformed>()->used[caster.deform] = 1;
+}
+
 void FrameBuilder::bind_caster_vertices(PassContext& context, const Caster& caster, bool with_surfaces) const {
   gpu::CommandList& commands = context.commands();
   const std::uint64_t first = caster.primitive->first_vertex;
   if (caster.deform == kNone) {
     commands.bind_vertex_stream(0, scene_.positions(), first * sizeof(vec3));
   } else {
+    const Deformed& deformed = *shared_.find<Deformed>();
+    GLOAM_ASSERT(deformed.used[caster.deform] != 0, "a caster is drawn that was not declared by use_caster_vertices");
     const std::uint64_t moved = draws_.deforms[caster.deform].first_vertex;
-    commands.bind_vertex_stream(0, context.buffer(shared_.find<Deformed>()->positions), moved * sizeof(vec3));
+    commands.bind_vertex_stream(0, context.buffer(deformed.positions), moved * sizeof(vec3));
   }
   if (with_surfaces) commands.bind_vertex_stream(1, scene_.surfaces(), first * sizeof(PackedSurface));
 }

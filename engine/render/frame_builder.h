@@ -168,8 +168,12 @@ class FrameBuilder {
   /// Declares that a pass draws meshes or casters and so reads deformed vertices. motion: also those of the previous
   /// frame.
   void read_vertices(PassBuilder& pass, bool motion = false);
-  /// Binds the vertices of a caster: positions (vec3, deformed if the caster is) as stream 0 and, if `with_surfaces`,
-  /// PackedSurface as stream 1. Both begin at the primitive's first vertex, like its indices (GpuScene::indices).
+  /// Declares that a pass of this frame binds the vertices of this caster. Deformed casters without it are not
+  /// deformed, unless a view draws them.
+  void use_caster_vertices(const Caster& caster);
+  /// After use_caster_vertices. Binds the vertices of a caster: positions (vec3, deformed if the caster is) as stream 0
+  /// and, if `with_surfaces`, PackedSurface as stream 1. Both begin at the primitive's first vertex, like its indices
+  /// (GpuScene::indices).
   void bind_caster_vertices(PassContext& context, const Caster& caster, bool with_surfaces) const;
 
   /// Keeps the content of a buffer at the end of the frame for the CPU (Module::take_result, Module::result_counters).
@@ -215,6 +219,9 @@ class FrameBuilder {
     BufferRef positions;
     BufferRef frames;
     BufferRef previous_positions;  ///< null if no view so far has motion
+    /// By index into FrameDraws::deforms: whether a view draws it or a pass has called use_caster_vertices. The
+    /// vertices of all others are undefined.
+    std::vector<std::uint8_t> used;
   };
 
  private:

@@ -42,6 +42,7 @@ void record_compute(const Recording& recording, PassContext& context) {
   for (const Step& step : recording.steps) {
     switch (step.kind) {
       case StepKind::dispatch:
+        if (step.wanted != nullptr && *step.wanted == 0) break;
         begin_step(recording, step, context, storage);
         commands.dispatch(step.counts[0], step.counts[1], step.counts[2]);
         break;
@@ -86,6 +87,7 @@ void ComputePass::dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
   step.counts[0] = x;
   step.counts[1] = y;
   step.counts[2] = z;
+  step.wanted = wanted_;
 }
 
 std::uint32_t ComputePass::local_size(std::size_t axis) const {

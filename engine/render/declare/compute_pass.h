@@ -37,12 +37,16 @@ class ComputePass : public ShaderPass {
   void dispatch_over(uvec2 items) { dispatch_over(items.x, items.y); }
   /// The numbers of workgroups are three 32-bit words of the buffer. offset: bytes.
   void dispatch_indirect(BufferRef arguments, std::uint64_t offset);
+  /// Later dispatches (not indirect ones) are left out if *wanted is 0 when the pass is recorded, after all passes of
+  /// the frame are declared. Null: they are always recorded. Until the frame has ended it must stay where it is.
+  void only_if(const std::uint8_t* wanted) { wanted_ = wanted; }
   /// Later dispatches see what earlier dispatches of this pass have written.
   void barrier();
 
  private:
   [[nodiscard]] std::uint32_t local_size(std::size_t axis) const;
   gpu::SpecConstants constants_;  ///< of the program in use
+  const std::uint8_t* wanted_ = nullptr;
 };
 
 }  // namespace gloam

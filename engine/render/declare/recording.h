@@ -58,11 +58,12 @@ struct Step {
   std::uint32_t bound_count = 0;
   std::uint32_t first_push = 0;  ///< bytes
   std::uint32_t push_bytes = 0;
-  std::uint32_t counts[3] = {0, 0, 0};  ///< workgroups; or vertices, instances
-  BufferRef arguments;                  ///< of indirect steps
-  std::uint64_t offset = 0;             ///< bytes into `arguments`
-  BufferRef indices;                    ///< of indexed draws; counts[0]: number of draws
-  std::size_t function = 0;             ///< index into Recording::functions
+  std::uint32_t counts[3] = {0, 0, 0};   ///< workgroups; or vertices, instances
+  const std::uint8_t* wanted = nullptr;  ///< of a dispatch: it is left out if this is 0 when the pass is recorded
+  BufferRef arguments;                   ///< of indirect steps
+  std::uint64_t offset = 0;              ///< bytes into `arguments`
+  BufferRef indices;                     ///< of indexed draws; counts[0]: number of draws
+  std::size_t function = 0;              ///< index into Recording::functions
   std::span<const Draw> draws;
   std::size_t surface_pass = 0;  ///< index into Recording::surface_passes
 };

@@ -31,7 +31,7 @@ struct Draw {
   Aabb bounds;                   ///< of the drawn vertices, relative to the view's position; empty: unknown
 };
 
-/// A primitive of an instance whose vertices the GPU morphs or skins in this frame.
+/// A primitive of an instance whose vertices the GPU morphs or skins in this frame, if anything uses them.
 struct DeformJob {
   Entity entity;
   const GpuPrimitive* primitive = nullptr;
@@ -59,7 +59,7 @@ struct FrameDraws {
 [[nodiscard]] shaders::DrawConstants draw_constants(const dmat4& world_from_mesh, const dvec3& origin);
 
 /// Culls every MeshInstance of the world against each view, in jobs. The result does not depend on the number of
-/// threads. `with_casters`: also lists all shadow casters, in a view or not, and deforms them.
+/// threads. `with_casters`: also lists all shadow casters, in a view or not, with jobs that deform them.
 [[nodiscard]] FrameDraws build_frame_draws(const World& world, std::span<const RenderView* const> views,
                                            const GpuScene& scene, JobExecutor& executor, bool with_casters = false);
 

@@ -70,7 +70,18 @@ std::vector<float> uploaded_weights(std::vector<float> weights) {
   return weights;
 }
 
-/// Deforms with the previous frame's joints and weights, into streams of the same layout. Returns the positions.
+/// By job: whether a view draws it.
+std::vector<std::uint8_t> jobs_in_view(const FrameDraws& draws) {
+  std::vector<std::uint8_t> in_view(draws.deforms.size(), 0);
+  for (const ViewDraws& view : draws.views)
+    for (const std::vector<Draw>* list : {&view.solid, &view.blended})
+      for (const Draw& draw : *list)
+        if (draw.deform != kNone) in_view[draw.deform] = 1;
+  return in_view;
+}
+
+/// Deforms what views draw with the previous frame's joints and weights, into streams of the same layout. Returns the
+/// positions.
 BufferRef add_previous_pass(FrameBuilder& frame, const DrawnInstances& drawn) {
   std::vector<mat4> joints = frame.world().resource<JointMatrices>().matrices;
   std::vector<float> weights = frame.world().resource<MorphWeights>().values;
@@ -81,24 +92,35 @@ BufferRef add_previous_pass(FrameBuilder& frame, const DrawnInstances& drawn) {
   ComputePass pass(frame, "deform_previous", shaders::render::deform_comp);
   pass.items<vec4>("joint_rows", joint_rows(joints));
   pass.items<float>("morph_weights", uploaded_weights(std::move(weights)));
-  for (const DeformJob& job : frame.frame_draws().deforms)
-    deform(pass, frame.scene(), job, previous_deform_constants(job, drawn.find(frame.world(), job.entity), offsets),
-           previous);
+  const std::vector<DeformJob>& jobs = frame.frame_draws().deforms;
+  const std::vector<std::uint8_t> in_view = jobs_in_view(frame.frame_draws());
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    static constexpr std::uint8_t kNever = 0;
+    pass.only_if(in_view[i] != 0 ? nullptr : &kNever);
+    const DrawnInstance* before = drawn.find(frame.world(), jobs[i].entity);
+    deform(pass, frame.scene(), jobs[i], previous_deform_constants(jobs[i], before, offsets), previous);
+  }
   return previous.positions;
 }
 
 }  // namespace
 
 void add_deform_pass(FrameBuilder& frame) {
-  if (frame.frame_draws().deforms.empty()) return;
+  const std::vector<DeformJob>& jobs = frame.frame_draws().deforms;
+  if (jobs.empty()) return;
   FrameBuilder::Deformed* deformed = frame.shared().find<FrameBuilder::Deformed>();
   if (deformed == nullptr) {
     Streams streams = create_streams(frame, "deformed");
     ComputePass pass(frame, "deform", shaders::render::deform_comp);
     pass.items<vec4>("joint_rows", joint_rows(frame.world().resource<JointMatrices>().matrices));
     pass.items<float>("morph_weights", uploaded_weights(frame.world().resource<MorphWeights>().values));
-    for (const DeformJob& job : frame.frame_draws().deforms) deform(pass, frame.scene(), job, job.constants, streams);
-    deformed = &frame.shared().put(FrameBuilder::Deformed{streams.positions, streams.frames, {}});
+    deformed = &frame.shared().put(FrameBuilder::Deformed{{}, {}, {}, jobs_in_view(frame.frame_draws())});
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+      pass.only_if(&deformed->used[i]);
+      deform(pass, frame.scene(), jobs[i], jobs[i].constants, streams);
+    }
+    deformed->positions = streams.positions;
+    deformed->frames = streams.frames;
   }
   const DrawnInstances* drawn = frame.previous_instances();
   if (drawn != nullptr && !deformed->previous_positions)

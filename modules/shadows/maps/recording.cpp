@@ -143,6 +143,10 @@ void record_draws(FrameBuilder& frame, PassContext& context, const MapWork& map,
 
 void prepare_maps(FrameBuilder& frame, ShadowStates& states, const ShadowKnobs& knobs, float steepest, MapWork& work,
                   MapMips mips) {
+  for (const FacePlan* plan : {&work.backgrounds, &work.faces})
+    for (const DrawnFace& face : plan->faces)
+      for (const DrawnRegion& region : face.regions)
+        for (const FaceDraw& draw : region.draws) frame.use_caster_vertices(*draw.caster);
   work.bias_units = knobs.bias_units;
   work.whole = pipeline_of(frame, map_pipeline(MapDraw::whole));
   if (draws_fronts(work.faces) || draws_fronts(work.backgrounds))

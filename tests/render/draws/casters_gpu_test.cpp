@@ -42,7 +42,8 @@ class ProbeModule final : public Module {
     seen_ = {};
     seen_.draws = frame.draws().solid.size() + frame.draws().blended.size();
     seen_.casters = frame.casters().casters;
-    for (const Caster& caster : seen_.casters) {
+    for (const Caster& caster : frame.casters().casters) {
+      frame.use_caster_vertices(caster);
       seen_.first_vertices.push_back(caster.deform == kNone ? kNone
                                                             : frame.frame_draws().deforms[caster.deform].first_vertex);
       seen_.simplified = seen_.simplified || caster.primitive->simplified_index_count > 0;
