@@ -40,6 +40,12 @@ struct MorphWeights {
   std::vector<float> values;
 };
 
+/// Meshes of SceneAssets that the GPU holds although no MeshInstance draws them, e.g. because it soon will. A resource
+/// that the host may set. Meshes with neither are not uploaded, and are freed after 120 frames without.
+struct PreloadedMeshes {
+  std::vector<std::uint32_t> meshes;
+};
+
 /// Entities that the host has put elsewhere since the last frame. They and their descendants (Parent) have the motion
 /// of objects at rest in the next frame. The renderer clears the list when a frame was drawn.
 struct Teleports {

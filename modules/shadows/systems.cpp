@@ -42,10 +42,7 @@ CasterBounds bounds_of(std::span<const MeshInstance> instances, std::span<const 
     const Aabb* box = box_of(assets, instances[i]);
     if (box == nullptr) continue;
     grow(bounds, *box, transforms[i].matrix);
-    const double size = half_diagonal(*box, transforms[i].matrix);
-    if (!(size > 0.0) || !std::isfinite(size)) continue;
-    bounds.log2_sizes += std::log2(size);
-    ++bounds.sized;
+    bounds.add_size(half_diagonal(*box, transforms[i].matrix));
   }
   return bounds;
 }
@@ -97,8 +94,7 @@ void shadow_bounds_system(ViewResource<const VisibleLights> visible,
   CasterBounds all;
   for (const CasterBounds& bounds : found) {
     all.grow(bounds.min, bounds.max);
-    all.log2_sizes += bounds.log2_sizes;
-    all.sized += bounds.sized;
+    all.add_sizes(bounds);
   }
   for (const JointMatrices::Range& range : joints->ranges) {
     const auto* instance = meshes.try_get<MeshInstance>(range.instance);

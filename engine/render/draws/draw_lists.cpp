@@ -87,14 +87,21 @@ class InstanceDrawer {
 
   /// lists.views: one per view.
   void draw(const Instance& instance, FrameDraws& lists) const {
-    for (const GpuPrimitive& primitive : scene_.meshes()[instance.mesh]) {
+    const std::vector<GpuPrimitive>& primitives = scene_.meshes()[instance.mesh];
+    for (std::uint32_t p = 0; p < primitives.size(); ++p) {
+      const GpuPrimitive& primitive = primitives[p];
       if (primitive.index_count == 0) continue;
       const bool skinned = primitive.skinned && instance.joints != nullptr;
       const bool morphed = primitive.morph_targets > 0 && instance.weight_count >= primitive.morph_targets;
-      if (skinned || morphed)
+      if (skinned || morphed) {
         draw_deformed(instance, primitive, skinned, morphed, lists);
-      else
+      } else if (const GpuPrimitive* const split = scene_.split_primitive(instance.entity, p)) {
+        Instance moved = instance;
+        moved.matrix = from_origin(instance.matrix, *split);
+        draw_rigid(moved, *split, lists);
+      } else {
         draw_rigid(instance, primitive, lists);
+      }
     }
   }
 
@@ -275,6 +282,12 @@ void sort(ViewDraws& draws) {
 }
 
 }  // namespace
+
+dmat4 from_origin(const dmat4& world_from_mesh, const GpuPrimitive& primitive) {
+  dmat4 matrix = world_from_mesh;
+  matrix[3] = world_from_mesh * dvec4(primitive.origin, 1.0);
+  return matrix;
+}
 
 shaders::DrawConstants draw_constants(const dmat4& world_from_mesh, const dvec3& origin) {
   dmat4 relative = world_from_mesh;

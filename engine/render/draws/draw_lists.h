@@ -55,6 +55,9 @@ struct FrameDraws {
   CasterList casters;  ///< empty unless with_casters
 };
 
+/// The world matrix of a primitive's positions, which are relative to GpuPrimitive::origin.
+[[nodiscard]] dmat4 from_origin(const dmat4& world_from_mesh, const GpuPrimitive& primitive);
+
 /// Push constants that draw a mesh relative to `origin` (world). Composed in double.
 [[nodiscard]] shaders::DrawConstants draw_constants(const dmat4& world_from_mesh, const dvec3& origin);
 

@@ -132,7 +132,7 @@ shaders::MotionDrawConstants motion_draw_constants(const Draw& draw, const Frame
     previous.row1.w = static_cast<float>(previous.row1.w + moved.y);
     previous.row2.w = static_cast<float>(previous.row2.w + moved.z);
   } else {
-    dmat4 matrix = drawn->world_from_mesh;
+    dmat4 matrix = from_origin(drawn->world_from_mesh, *draw.primitive);
     if (deform.skinned != 0) {
       matrix = dmat4(1.0);
       matrix[3] = dvec4(drawn->skin_origin, 1.0);

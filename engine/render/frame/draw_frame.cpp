@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -33,7 +34,9 @@ class Drawing {
 Status sync_assets(const Frame& frame, RendererParts& parts) {
   const SceneAssets& assets = frame.world.resource<SceneAssets>();
   GpuScene& scene = parts.worlds.scene_of(frame.world);
-  GLOAM_TRY(scene.sync(assets, *parts.options.executor));
+  MeshesInUse in_use = meshes_in_use(frame.world);
+  in_use.ages = frame.redraw == nullptr;
+  GLOAM_TRY(scene.sync(assets, *parts.options.executor, std::move(in_use)));
   if (frame.any_needs(parts.modules, &Module::needs_simplified_casters))
     GLOAM_TRY(scene.simplify_casters(assets, *parts.options.executor));
   return {};
@@ -42,6 +45,14 @@ Status sync_assets(const Frame& frame, RendererParts& parts) {
 /// Makes the draw lists of all views.
 Status build_draws(Frame& frame, RendererParts& parts) {
   GpuScene& scene = parts.worlds.scene_of(frame.world);
+  std::vector<dvec3> eyes;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const FrameView& own : frame.views) {
+    eyes.push_back(own.view->position);
+    const Camera& camera = own.view->camera;
+    nearest = std::min(nearest, static_cast<double>(camera.orthographic ? camera.half_height_m : camera.near_m));
+  }
+  scene.split_large_triangles(frame.world, eyes, nearest);
   GLOAM_TRY(scene.stage(frame.world.resource<SceneAssets>()));
   scene.add_pass(parts.resources.graph);
   std::vector<const RenderView*> views;

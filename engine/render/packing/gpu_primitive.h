@@ -33,6 +33,8 @@ struct GpuPrimitive {
   bool smooth_shaded = false;  ///< is_smooth_shaded(), in the rest pose
   bool simplification_tried = false;
   std::uint64_t content = 0;  ///< another number for each upload: two primitives with the same number are the same
+  double longest_edge = 0.0;  ///< of a triangle that may have to be split (refined_triangles.h); 0: none may
+  dvec3 origin = dvec3(0.0);  ///< point of the mesh that positions and bounds are relative to
   Aabb bounds;
   std::vector<Cluster> clusters;
   /// Joint index and rest bounds of the vertices that follow the joint. The union of the posed boxes bounds the posed

@@ -64,6 +64,12 @@ void GpuScene::find_changed_meshes(const SceneAssets& assets) {
   for (std::uint32_t m = 0; m < meshes_.size(); ++m) {
     Progress& progress = mesh_progress_[m];
     const std::uint64_t revision = assets.revision(AssetKind::mesh, m);
+    if (!holds_mesh(m)) {
+      if (progress.in_flight) continue;  // when it has come, it is looked at again
+      remove_mesh(m);
+      progress = {};
+      continue;
+    }
     if (progress.requested == revision) continue;
     if (assets.is_destroyed(AssetKind::mesh, m)) {
       remove_mesh(m);
@@ -92,7 +98,7 @@ void GpuScene::find_changed_images(const SceneAssets& assets) {
     touched[t] = is_new(assets, AssetKind::texture, t);
     any = any || touched[t];
     const ImageKey key = key_of(assets.textures[t]);
-    if (key.first == kNone) continue;
+    if (key.first == kNone || !holds_image(key)) continue;
     Progress& progress = image_progress_[key];
     const std::uint64_t revision = assets.revision(AssetKind::image, key.first);
     if (progress.shown != kNever && assets.destroyed_at(AssetKind::image, key.first) > progress.shown) {
@@ -102,10 +108,13 @@ void GpuScene::find_changed_images(const SceneAssets& assets) {
     if (progress.requested != revision)
       request(progress, {.index = key.first, .revision = revision, .is_image = true, .srgb = key.second}, assets);
   }
-  if (!any) return;
-  materials_.touch_textures(assets, touched);
+  if (any) materials_.touch_textures(assets, touched);
+  drop_images_without_use(assets);
+}
+
+void GpuScene::drop_images_without_use(const SceneAssets& assets) {
   for (auto it = image_progress_.begin(); it != image_progress_.end();) {
-    if (it->second.in_flight || shows(assets, it->first)) {
+    if (it->second.in_flight || (holds_image(it->first) && shows(assets, it->first))) {
       ++it;
       continue;
     }
@@ -215,6 +224,7 @@ Status GpuScene::stage_changes(const SceneAssets& assets) {
   for (PackedAsset& asset : options_.background ? packer_.take() : std::exchange(packed_, {}))
     GLOAM_TRY(begin_upload(assets, std::move(asset)));
   GLOAM_TRY(streams_.fit());
+  GLOAM_TRY(compact());
   auto finished = uploads_.stage(options_.background ? options_.budget : std::numeric_limits<std::uint64_t>::max());
   if (!finished.ok()) return finished.error();
   for (const std::uint64_t number : *finished) {
@@ -225,6 +235,18 @@ Status GpuScene::stage_changes(const SceneAssets& assets) {
   }
   copies_ = uploads_.has_copies() || streams_.has_growth();
   return materials_.make_sets(assets);
+}
+
+Status GpuScene::compact() {
+  // What an upload under way is copied to keeps its place.
+  if (!removed_ || !staged_.empty() || uploads_.bytes() > 0 || streams_.has_growth()) return {};
+  removed_ = false;
+  if (!streams_.is_sparse()) return {};
+  std::vector<GpuPrimitive*> primitives;
+  for (std::vector<GpuPrimitive>& mesh : meshes_)
+    for (GpuPrimitive& primitive : mesh) primitives.push_back(&primitive);
+  for (auto& [key, split] : split_) primitives.push_back(&split.primitive);
+  return streams_.compact(primitives);
 }
 
 void GpuScene::add_pass(FrameGraph& graph) {

@@ -3,7 +3,6 @@
 #include "engine/render/scene/gpu_materials.h"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <utility>
 
@@ -13,11 +12,6 @@
 
 namespace gloam {
 namespace {
-
-std::array<const TextureSlot*, 5> slots_of(const Material& material) {
-  return {&material.base_color_texture, &material.normal_texture, &material.metallic_roughness_texture,
-          &material.occlusion_texture, &material.emissive_texture};
-}
 
 std::vector<std::byte> constants_of(const Material& material) {
   std::vector<std::byte> bytes(kMaterialStride);
@@ -37,6 +31,11 @@ std::vector<std::byte> all_constants(const SceneAssets& assets) {
 }
 
 }  // namespace
+
+std::array<const TextureSlot*, 5> texture_slots(const Material& material) {
+  return {&material.base_color_texture, &material.normal_texture, &material.metallic_roughness_texture,
+          &material.occlusion_texture, &material.emissive_texture};
+}
 
 gpu::ImageDesc texture_image_desc(const std::string& name, std::uint32_t width, std::uint32_t height, bool srgb) {
   gpu::ImageDesc desc{.name = "texture." + name, .module = "engine"};
@@ -110,7 +109,7 @@ void GpuMaterials::touch_textures(const SceneAssets& assets, const std::vector<b
     const auto shows = [&](const TextureSlot* slot) {
       return slot->texture < touched.size() && touched[slot->texture];
     };
-    if (std::ranges::any_of(slots_of(assets.materials[i]), shows)) drop_set(materials_[i]);
+    if (std::ranges::any_of(texture_slots(assets.materials[i]), shows)) drop_set(materials_[i]);
   }
 }
 
@@ -151,7 +150,7 @@ Result<gpu::ResourceSetHandle> GpuMaterials::set_of(const SceneAssets& assets, c
   bindings.push_back(
       {0, gpu::Binding::BufferRange{constants_, place * kMaterialStride, sizeof(shaders::MaterialConstants)}});
   std::uint32_t binding = 1;
-  for (const TextureSlot* slot : slots_of(material)) {
+  for (const TextureSlot* slot : texture_slots(material)) {
     const Texture* texture = slot->texture == kNone ? nullptr : &assets.textures[slot->texture];
     auto sampler = device_.create_sampler(texture == nullptr ? gpu::SamplerDesc{} : sampler_desc(*texture));
     if (!sampler.ok()) return sampler.error();

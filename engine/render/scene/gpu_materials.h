@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <utility>
@@ -82,6 +83,8 @@ class GpuMaterials {
   bool sets_missing_ = false;
 };
 
+/// The textures of a material, in the order of their bindings.
+[[nodiscard]] std::array<const TextureSlot*, 5> texture_slots(const Material& material);
 /// The image of a texture.
 [[nodiscard]] inline ImageKey key_of(const Texture& texture) { return {texture.image, texture.srgb}; }
 /// Description of an RGBA8 image with all its mips, as textures show it.

@@ -41,13 +41,20 @@ void GpuScene::release() {
   meshes_.clear();
   mesh_progress_.clear();
   image_progress_.clear();
+  split_.clear();
   version_ = 0;
   smooth_primitives_ = left_ = 0;
   simplification_left_ = false;
-  waiting_ = copies_ = false;
+  waiting_ = copies_ = removed_ = false;
 }
 
-Status GpuScene::sync(const SceneAssets& assets, JobExecutor& executor) {
+Status GpuScene::sync(const SceneAssets& assets, JobExecutor& executor, std::optional<MeshesInUse> in_use) {
+  if (!in_use) {
+    use_.reset();
+  } else {
+    if (!use_) use_.emplace();
+    waiting_ = use_->update(assets, std::move(*in_use)) || waiting_;
+  }
   const Sizes sizes = sizes_of(assets);
   bool shorter = false;
   for (std::size_t i = 0; i < sizes.size(); ++i) shorter = shorter || sizes[i] < sizes_[i];
@@ -85,8 +92,9 @@ Status GpuScene::upload_everything(const SceneAssets& assets, JobExecutor& execu
 
 Status GpuScene::upload_meshes(const SceneAssets& assets, JobExecutor& executor, Uploader& uploader) {
   std::vector<const Primitive*> sources;
-  for (const Mesh& mesh : assets.meshes)
-    for (const Primitive& primitive : mesh.primitives) sources.push_back(&primitive);
+  for (std::uint32_t m = 0; m < assets.meshes.size(); ++m)
+    for (const Primitive& primitive : assets.meshes[m].primitives)
+      if (holds_mesh(m)) sources.push_back(&primitive);
   std::vector<PackedPrimitive> packed(sources.size());
   executor.parallel_for(sources.size(), 1, [&](JobRange range) {
     for (std::size_t i = range.begin; i < range.end; ++i) packed[i] = pack_primitive(*sources[i], false);
@@ -106,6 +114,7 @@ Status GpuScene::upload_meshes(const SceneAssets& assets, JobExecutor& executor,
   mesh_progress_.resize(assets.meshes.size());
   std::size_t next = 0;
   for (std::uint32_t m = 0; m < meshes_.size(); ++m) {
+    if (!holds_mesh(m)) continue;
     std::vector<PackedPrimitive> primitives;
     for (std::size_t p = 0; p < assets.meshes[m].primitives.size(); ++p)
       primitives.push_back(std::move(packed[next++]));
@@ -127,7 +136,7 @@ SurfaceVariant GpuScene::drawn_variant() const {
 Status GpuScene::upload_images(const SceneAssets& assets, Uploader& uploader) {
   for (const Texture& texture : assets.textures) {
     const ImageKey key = key_of(texture);
-    if (texture.image == kNone || materials_.images().contains(key)) continue;
+    if (texture.image == kNone || materials_.images().contains(key) || !holds_image(key)) continue;
     const Image& image = assets.images[texture.image];
     const auto made = device_.create_image(texture_image_desc(image.name, image.width, image.height, texture.srgb));
     if (!made.ok()) return made.error();
@@ -155,6 +164,7 @@ void GpuScene::show_mesh(std::uint32_t mesh, std::vector<PackedPrimitive>&& prim
 }
 
 void GpuScene::remove_mesh(std::uint32_t mesh) {
+  removed_ = removed_ || !meshes_[mesh].empty();
   for (const GpuPrimitive& primitive : meshes_[mesh]) {
     smooth_primitives_ -= primitive.smooth_shaded ? 1 : 0;
     streams_.remove(primitive);

@@ -6,15 +6,20 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "engine/core/result.h"
+#include "engine/ecs/world.h"
 #include "engine/frame/frame_graph.h"
 #include "engine/frame/transfers/upload.h"
 #include "engine/gpu/device.h"
 #include "engine/jobs/executor.h"
 #include "engine/render/packing/gpu_primitive.h"
+#include "engine/render/packing/refined_triangles.h"
+#include "engine/render/scene/asset_use.h"
 #include "engine/render/scene/draw_pipelines.h"
 #include "engine/render/scene/gpu_materials.h"
 #include "engine/render/uploads/asset_packer.h"
@@ -36,7 +41,8 @@ struct AssetUploadOptions {
   std::uint64_t budget = std::uint64_t{8} << 20;
 };
 
-/// Meshes, textures and materials of a world's SceneAssets on the GPU.
+/// Meshes, textures and materials of a world's SceneAssets on the GPU. Meshes and images that are not in use (AssetUse)
+/// are not there.
 ///
 /// When SceneAssets::version has changed, sync() uploads everything and waits for it. Otherwise only the assets with a
 /// newer revision are packed and copied by the frame itself, in the pass that add_pass() declares.
@@ -49,11 +55,17 @@ class GpuScene {
   GpuScene& operator=(const GpuScene&) = delete;
 
   /// Before Device::begin_frame: uploads everything, or finds what has changed. Asserts that what is uploaded can be
-  /// drawn (asset_fault).
-  [[nodiscard]] Status sync(const SceneAssets& assets, JobExecutor& executor);
+  /// drawn (asset_fault). in_use: none if every mesh and every texture is in use.
+  [[nodiscard]] Status sync(const SceneAssets& assets, JobExecutor& executor, std::optional<MeshesInUse> in_use = {});
   /// Gives opaque rigid primitives a second range of indices with fewer triangles (simplified_casters.h), each once.
   /// `assets`: those of the last sync. Between sync() and stage().
   [[nodiscard]] Status simplify_casters(const SceneAssets& assets, JobExecutor& executor);
+  /// Splits triangles that are too large for their distance from an eye (refined_triangles.h), for the instances of
+  /// this frame. eyes: in the world, of all views. nearest: nothing nearer to an eye is drawn. `world`: with the assets
+  /// of the last sync. Between sync() and stage().
+  void split_large_triangles(const World& world, std::span<const dvec3> eyes, double nearest);
+  /// The primitive that is drawn for an instance in place of one of its mesh; null: that one itself.
+  [[nodiscard]] const GpuPrimitive* split_primitive(Entity instance, std::uint32_t primitive) const;
   /// After Device::begin_frame and before draws are made: decides what this frame copies, and shows what is complete.
   [[nodiscard]] Status stage(const SceneAssets& assets);
   /// Declares the pass `upload_assets` with the copies that stage() has decided on; none if there are none.
@@ -85,6 +97,17 @@ class GpuScene {
     std::uint64_t shown = kNever;
     bool in_flight = false;
   };
+  /// A primitive of an instance with split triangles.
+  struct Split {
+    GpuPrimitive primitive;
+    std::uint32_t mesh = 0;
+    std::uint64_t revision = 0;
+    dmat4 world_from_mesh = dmat4(1.0);
+    std::vector<std::pair<dvec3, double>> eyes;  ///< and how far they may move before it is split again
+    bool used = false;
+    [[nodiscard]] bool serves(const dmat4& matrix, std::span<const dvec3> now) const;
+  };
+  void split(const Primitive& source, std::uint32_t mesh, const SeenFrom& seen, std::uint64_t revision, Split& made);
   /// A mesh or an image whose copies are being staged.
   struct Staged {
     PackedAsset asset;  ///< without the data that was given to the uploads
@@ -103,9 +126,15 @@ class GpuScene {
   /// A variant of a solid primitive, if there is one.
   [[nodiscard]] SurfaceVariant drawn_variant() const;
 
+  [[nodiscard]] bool holds_mesh(std::uint32_t mesh) const { return !use_ || use_->has_mesh(mesh); }
+  [[nodiscard]] bool holds_image(const ImageKey& key) const { return !use_ || use_->has_image(key); }
+
   void find_changes(const SceneAssets& assets);
   void find_changed_meshes(const SceneAssets& assets);
   void find_changed_images(const SceneAssets& assets);
+  void drop_images_without_use(const SceneAssets& assets);
+  /// Moves the primitives together if much of their buffers is free.
+  [[nodiscard]] Status compact();
   void find_changed_materials(const SceneAssets& assets);
   [[nodiscard]] bool is_new(const SceneAssets& assets, AssetKind kind, std::uint32_t index) const;
   /// Has an asset packed; if that must wait, notes that the next sync() tries again.
@@ -130,12 +159,14 @@ class GpuScene {
   MeshStreams streams_;
   GpuMaterials materials_;
   AssetUploads uploads_;
-  std::uint64_t version_ = 0;  ///< of SceneAssets; 0: nothing was uploaded
+  std::optional<AssetUse> use_;  ///< none: everything is in use
+  std::uint64_t version_ = 0;    ///< of SceneAssets; 0: nothing was uploaded
   std::uint64_t revision_ = 0;
   Sizes sizes_{};
   std::vector<std::vector<GpuPrimitive>> meshes_;
   std::vector<Progress> mesh_progress_;
   std::map<ImageKey, Progress> image_progress_;
+  std::map<std::array<std::uint32_t, 3>, Split> split_;  ///< by instance (index, generation) and primitive
   std::vector<std::uint32_t> changed_materials_;
   std::vector<PackRequest> requests_;  ///< of this frame, if they are not packed in the background
   std::vector<PackedAsset> packed_;
@@ -148,6 +179,7 @@ class GpuScene {
   bool simplification_left_ = false;  ///< for primitives that it has not seen
   bool waiting_ = false;              ///< the next sync() looks for changes again
   bool copies_ = false;               ///< the current frame has copies
+  bool removed_ = false;              ///< meshes were removed since the last compact()
   AssetPacker packer_;
 };
 

@@ -3,6 +3,7 @@
 #include "engine/render/uploads/mesh_streams.h"
 
 #include <algorithm>
+#include <initializer_list>
 #include <string>
 #include <utility>
 
@@ -100,6 +101,40 @@ Status MeshStreams::fit() {
   return {};
 }
 
+bool MeshStreams::is_sparse() const {
+  constexpr std::uint64_t kLeastWaste = 1 << 20;
+  std::uint64_t all = 0, used = 0;
+  for (std::uint32_t i = 0; i < kStreams; ++i) {
+    all += bytes(static_cast<Stream>(i));
+    used += ranges_of(static_cast<Stream>(i)).used() * kUnit * kElementBytes[i];
+  }
+  return all - used > std::max(used, kLeastWaste);
+}
+
+Status MeshStreams::compact(std::span<GpuPrimitive* const> primitives) {
+  GLOAM_ASSERT(!has_growth(), "buffers are compacted when their contents are complete");
+  vertices_ = index_ranges_ = influence_ranges_ = morph_ranges_ = {};
+  const auto move = [&](RangeAllocator& ranges, std::uint32_t& first, std::size_t count,
+                        std::initializer_list<Stream> streams) {
+    const std::uint32_t from = std::exchange(first, allocate(ranges, count, false));
+    if (count == 0) return;
+    for (const Stream stream : streams) moves_[stream].push_back({from, first, count});
+  };
+  for (GpuPrimitive* const p : primitives) {
+    move(vertices_, p->first_vertex, p->vertex_count, {positions, frames, surfaces});
+    move(index_ranges_, p->first_index, p->index_count, {indices});
+    move(influence_ranges_, p->first_influence, p->skinned ? p->vertex_count : 0, {influences});
+    move(morph_ranges_, p->first_morph, p->morph_floats, {morph_offsets});
+    move(index_ranges_, p->simplified_first_index, p->simplified_index_count, {indices});
+  }
+  for (std::uint32_t i = 0; i < kStreams; ++i) replaced_[i] = std::exchange(buffers_[i], {});
+  GLOAM_TRY(fit());
+  // Nothing moves from an empty stream.
+  for (std::uint32_t i = 0; i < kStreams; ++i)
+    if (moves_[i].empty()) device_.destroy(std::exchange(replaced_[i], {}));
+  return {};
+}
+
 bool MeshStreams::has_growth() const {
   return std::ranges::any_of(replaced_, [](gpu::BufferHandle buffer) { return static_cast<bool>(buffer); });
 }
@@ -115,7 +150,11 @@ void MeshStreams::record_growth(gpu::CommandList& commands) {
   commands.barrier(before, {});
   for (std::uint32_t i = 0; i < kStreams; ++i) {
     if (!replaced_[i]) continue;
-    commands.copy_buffer(replaced_[i], 0, buffers_[i], 0, device_.desc(replaced_[i]).size);
+    if (moves_[i].empty()) commands.copy_buffer(replaced_[i], 0, buffers_[i], 0, device_.desc(replaced_[i]).size);
+    for (const Move& move : moves_[i])
+      commands.copy_buffer(replaced_[i], move.from * kElementBytes[i], buffers_[i], move.to * kElementBytes[i],
+                           move.count * kElementBytes[i]);
+    moves_[i].clear();
     device_.destroy(std::exchange(replaced_[i], {}));
   }
   commands.barrier(after, {});
@@ -149,6 +188,7 @@ void MeshStreams::release() {
   for (auto* buffers : {&buffers_, &replaced_})
     for (gpu::BufferHandle& buffer : *buffers)
       if (buffer) device_.destroy(std::exchange(buffer, {}));
+  for (std::vector<Move>& moves : moves_) moves.clear();
   vertices_ = index_ranges_ = influence_ranges_ = morph_ranges_ = {};
 }
 

@@ -40,6 +40,11 @@ class MeshStreams {
   /// Makes the buffers as large as the ranges need; call it after place(). Larger buffers take the contents of those
   /// that they replace over in record_growth().
   [[nodiscard]] Status fit();
+  /// Whether more bytes of the buffers are free than in use, and more than 1 MiB.
+  [[nodiscard]] bool is_sparse() const;
+  /// Moves these primitives, which are all that have ranges, together in new buffers that are just large enough. Not
+  /// while has_growth(). The contents follow in record_growth(), before copies of this frame.
+  [[nodiscard]] Status compact(std::span<GpuPrimitive* const> primitives);
   [[nodiscard]] bool has_growth() const;
   void record_growth(gpu::CommandList& commands);
   /// The bytes of a placed primitive in one of the streams.
@@ -52,6 +57,12 @@ class MeshStreams {
   void release();
 
  private:
+  /// Elements of a stream that move from the replaced buffer to the new one.
+  struct Move {
+    std::uint32_t from = 0;
+    std::uint32_t to = 0;
+    std::size_t count = 0;
+  };
   [[nodiscard]] const RangeAllocator& ranges_of(Stream stream) const;
   [[nodiscard]] std::uint32_t allocate(RangeAllocator& ranges, std::size_t count, bool spare);
   static void free(RangeAllocator& ranges, std::uint32_t first, std::size_t count);
@@ -59,6 +70,7 @@ class MeshStreams {
   gpu::Device& device_;
   std::array<gpu::BufferHandle, kStreams> buffers_{};
   std::array<gpu::BufferHandle, kStreams> replaced_{};  ///< whose contents the new buffers do not have yet
+  std::array<std::vector<Move>, kStreams> moves_;       ///< none: all of a replaced buffer goes to the same place
   RangeAllocator vertices_, index_ranges_, influence_ranges_, morph_ranges_;  ///< in units of kUnit elements
 };
 

@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "engine/core/assert.h"
 
@@ -21,7 +22,7 @@ constexpr double kLogarithmicShare = 0.9;  // weight of the logarithmic split; t
 constexpr double kLeastStart = 1e-3;       // share of the far depth: logarithmic splits begin there or farther
 constexpr double kReachUnknown = 256.0;    // radii to each side of a sphere when the casters' bounds are unknown
 constexpr double kMostReach = 16384.0;     // most radii to each side of a sphere: depths keep a texel's precision
-constexpr double kWideCasters = 4096.0;  // radii; of casters that reach farther, only what is beside the sphere counts
+constexpr double kWideCasters = 256.0;  // radii; of casters that reach farther, only what is beside the sphere counts
 constexpr double kLeastDepth = 1e-3;     // least depth of a box, in radii of its sphere
 constexpr double kLeastRadius = 1e-12;   // least radius of the casters' sphere, as a share of their coordinates
 constexpr double kLeastFar = 1e-3;       // least depth of the cascades, as a share of the near plane's
@@ -123,7 +124,25 @@ bool CasterBounds::known() const {
 }
 
 double CasterBounds::usual_size() const {
-  return sized == 0 ? 0.0 : power_above(std::exp2(log2_sizes / static_cast<double>(sized)));
+  const std::uint64_t all = std::accumulate(sizes.begin(), sizes.end(), std::uint64_t{0});
+  std::uint64_t below = 0;
+  for (std::size_t i = 0; i < sizes.size(); ++i)
+    if (below += sizes[i]; 2 * below >= all && below > 0)
+      return std::min(power_above(std::exp2(log2_sizes / static_cast<double>(all))),
+                      std::exp2(static_cast<int>(i) + kLeastExponent + 3));
+  return 0.0;
+}
+
+void CasterBounds::add_size(double half_diagonal) {
+  if (!(half_diagonal > 0.0) || !std::isfinite(half_diagonal)) return;
+  log2_sizes += std::log2(half_diagonal);
+  const double index = std::ceil(std::log2(half_diagonal)) - kLeastExponent;
+  ++sizes[static_cast<std::size_t>(std::clamp(index, 0.0, static_cast<double>(sizes.size() - 1)))];
+}
+
+void CasterBounds::add_sizes(const CasterBounds& other) {
+  for (std::size_t i = 0; i < sizes.size(); ++i) sizes[i] += other.sizes[i];
+  log2_sizes += other.log2_sizes;
 }
 
 double shadow_distance(const RenderView& view, const CasterBounds& casters) {

@@ -157,9 +157,10 @@ TEST(CascadeSpheres, reach_past_all_casters_up_to_a_limit_that_scales) {
   const double most = kMostNearPlanes * static_cast<double>(inside.near_m);
   CasterBounds wide = box({0, 0, 0}, dvec3(1e5));
   EXPECT_EQ(shadow_distance(inside, wide), most);
-  wide.log2_sizes = 3.0 * 7.0;  // three casters of 128 m: the near plane says less about the scene than they do
-  wide.sized = 3;
+  for (int i = 0; i < 3; ++i) wide.add_size(128.0);  // the near plane says less about the scene than they do
   EXPECT_EQ(shadow_distance(inside, wide), kMostCasterSizes * 128.0);
+  wide.add_size(1e9);  // a ground
+  EXPECT_EQ(shadow_distance(inside, wide), kMostCasterSizes * 8.0 * 128.0);
   EXPECT_GE(shadow_distance(inside, box({0, 0, 40}, dvec3(50.0))), 40.0 + std::sqrt(3.0) * 50.0);
   EXPECT_GE(shadow_distance(view_of(camera_at({0, 0, 5e4})), box({0, 0, 0}, dvec3(1.0))), 5e4);
 }

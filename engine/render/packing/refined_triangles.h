@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+//
+// Very large triangles near a camera. A vertex is a float relative to the camera: 1,000 km away it is rounded to 6 cm,
+// and clipping at the near plane moves the part of its triangle that is seen by as much. So such triangles are split,
+// in double precision, until each is at most a few times as long as it is away.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "engine/math/types.h"
+#include "engine/scene/assets.h"
+
+namespace gloam {
+
+/// A triangle that is longer than this many times its distance from a camera must be split: its rounding would be
+/// 1/32 of a pixel of 1 mrad. Split triangles are at most kSplitLength times as long as they are away.
+inline constexpr double kTooLong = 1024.0;
+inline constexpr double kSplitLength = 64.0;
+/// Primitives with more triangles are not split.
+inline constexpr std::size_t kMostSplitTriangles = 4096;
+
+/// The longest edge of the triangles, in units of the mesh.
+[[nodiscard]] double longest_edge(const Primitive& primitive);
+
+/// Distance from a point to a triangle.
+[[nodiscard]] double distance_to_triangle(const dvec3& point, const dvec3& a, const dvec3& b, const dvec3& c);
+
+/// Where a primitive is seen from.
+struct SeenFrom {
+  dmat4 world_from_mesh = dmat4(1.0);
+  std::span<const dvec3> eyes;  ///< world; at least one
+  double nearest = 0.0;         ///< nothing nearer to an eye is drawn; > 0
+};
+
+/// The largest ratio of a triangle's length to its distance from an eye.
+[[nodiscard]] double longest_ratio(const Primitive& primitive, const SeenFrom& seen);
+
+/// The same surface in smaller triangles, without cracks between them. Positions are relative to `origin`, a point of
+/// the mesh. Rigid primitives only.
+[[nodiscard]] Primitive refined_triangles(const Primitive& source, const SeenFrom& seen, const dvec3& origin);
+
+}  // namespace gloam

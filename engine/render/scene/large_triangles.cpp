@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+// Triangles that are too large for their distance from the camera.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "engine/ecs/view.h"
+#include "engine/render/packing/caster_bounds.h"
+#include "engine/render/packing/packed_primitive.h"
+#include "engine/render/scene/gpu_scene.h"
+#include "engine/scene/components.h"
+
+namespace gloam {
+namespace {
+
+/// Distance from the nearest eye to a box; 0 inside of it.
+double nearest_eye(const WorldBox& box, std::span<const dvec3> eyes) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const dvec3& eye : eyes) nearest = std::min(nearest, glm::length(glm::clamp(eye, box.min, box.max) - eye));
+  return nearest;
+}
+
+double largest_scale(const dmat4& matrix) {
+  return std::max({glm::length(dvec3(matrix[0])), glm::length(dvec3(matrix[1])), glm::length(dvec3(matrix[2]))});
+}
+
+/// Whether triangles of the primitive may be too large. Cheap.
+bool may_be_too_large(const Primitive& source, double longest_edge, const SeenFrom& seen) {
+  const double least = seen.nearest * kTooLong;
+  const double length = largest_scale(seen.world_from_mesh) * longest_edge;
+  if (!(length > least) || !std::isfinite(length)) return false;
+  const double away = nearest_eye(world_box(source.bounds, seen.world_from_mesh), seen.eyes);
+  return length > kTooLong * away;
+}
+
+/// Distance from an eye to the surface.
+double distance_to(const Primitive& source, const SeenFrom& seen, const dvec3& eye) {
+  const auto corner = [&](std::size_t i) {
+    return dvec3(seen.world_from_mesh * dvec4(dvec3(source.positions[source.indices[i]]), 1.0));
+  };
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i + 2 < source.indices.size(); i += 3)
+    nearest = std::min(nearest, distance_to_triangle(eye, corner(i), corner(i + 1), corner(i + 2)));
+  return std::max(nearest, seen.nearest);
+}
+
+}  // namespace
+
+bool GpuScene::Split::serves(const dmat4& matrix, std::span<const dvec3> now) const {
+  return world_from_mesh == matrix && std::ranges::all_of(now, [&](const dvec3& eye) {
+           return std::ranges::any_of(eyes,
+                                      [&](const auto& own) { return glm::length(eye - own.first) <= own.second; });
+         });
+}
+
+const GpuPrimitive* GpuScene::split_primitive(Entity instance, std::uint32_t primitive) const {
+  if (split_.empty()) return nullptr;
+  const auto found = split_.find({instance.index, instance.generation, primitive});
+  return found == split_.end() ? nullptr : &found->second.primitive;
+}
+
+void GpuScene::split(const Primitive& source, std::uint32_t mesh, const SeenFrom& seen, std::uint64_t revision,
+                     Split& made) {
+  if (!made.eyes.empty()) streams_.remove(made.primitive);
+  const dvec3 origin(glm::inverse(seen.world_from_mesh) * dvec4(seen.eyes.front(), 1.0));
+  PackedPrimitive packed = pack_primitive(refined_triangles(source, seen, origin), false);
+  packed.primitive.origin = origin;
+  packed.primitive.content = ++contents_;
+  packed.primitive.simplification_tried = true;
+  streams_.place(packed, true);
+  AssetUploads::Job job{.number = kNoAsset, .parts = {}, .image = {}, .texels = {}, .urgent = true};
+  for (std::uint32_t stream = 0; stream < MeshStreams::kStreams; ++stream)
+    for (AssetUploads::BufferPart& part : streams_.parts(packed, stream)) job.parts.push_back(std::move(part));
+  uploads_.add(std::move(job));
+  made = {std::move(packed.primitive), mesh, revision, seen.world_from_mesh, {}, true};
+  for (const dvec3& eye : seen.eyes) made.eyes.emplace_back(eye, 0.5 * distance_to(source, seen, eye));
+}
+
+void GpuScene::split_large_triangles(const World& world, std::span<const dvec3> eyes, double nearest) {
+  for (auto& [key, split] : split_) split.used = false;
+  const SceneAssets& assets = world.resource<SceneAssets>();
+  const auto split_instance = [&](Entity entity, const MeshInstance& instance, const WorldTransform& transform) {
+    const std::uint32_t m = instance.mesh;
+    if (m >= meshes_.size() || instance.skin != kNone || !holds_mesh(m)) return;
+    const std::uint64_t revision = assets.revision(AssetKind::mesh, m);
+    if (mesh_progress_[m].requested != revision || (options_.background && mesh_progress_[m].shown != revision)) return;
+    const std::vector<Primitive>& sources = assets.meshes[m].primitives;
+    const bool shown = mesh_progress_[m].shown == revision && meshes_[m].size() == sources.size();
+    const SeenFrom seen{transform.matrix, eyes, nearest};
+    for (std::uint32_t p = 0; p < sources.size(); ++p) {
+      const Primitive& source = sources[p];
+      if (source.indices.size() > 3 * kMostSplitTriangles || !source.joints.empty() || !source.morph_targets.empty())
+        continue;
+      if (!may_be_too_large(source, shown ? meshes_[m][p].longest_edge : longest_edge(source), seen)) continue;
+      if (const auto found = split_.find({entity.index, entity.generation, p}); found != split_.end()) {
+        Split& known = found->second;
+        if (known.mesh == m && known.revision == revision && known.serves(transform.matrix, eyes)) {
+          known.used = true;
+          continue;
+        }
+      }
+      if (longest_ratio(source, seen) > kTooLong && std::abs(glm::determinant(transform.matrix)) > 0.0)
+        split(source, m, seen, revision, split_[{entity.index, entity.generation, p}]);
+    }
+  };
+  if (!eyes.empty()) world.view<const MeshInstance, const WorldTransform>().each(split_instance);
+  for (auto it = split_.begin(); it != split_.end();) {
+    if (it->second.used) {
+      ++it;
+      continue;
+    }
+    streams_.remove(it->second.primitive);
+    removed_ = true;
+    it = split_.erase(it);
+  }
+}
+
+}  // namespace gloam
