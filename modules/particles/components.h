@@ -19,6 +19,7 @@ struct ParticleEmitter {
   float speed = 0.5f;          ///< m/s
   float spread = 0.34906585f;  ///< half angle around +Y, radians
   vec3 box_m = vec3(1.0f);
+  float metres_per_unit = 1.0f;  ///< scales how its kind moves; sizes and speed above are in units; > 0
 };
 
 }  // namespace gloam

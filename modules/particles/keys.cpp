@@ -5,7 +5,9 @@
 #include <string>
 #include <utility>
 
+#include "engine/ecs/view.h"
 #include "engine/scene/keys/table.h"
+#include "engine/scene/units.h"
 #include "modules/particles/components.h"
 
 namespace gloam {
@@ -30,6 +32,14 @@ void add_particle_keys(KeyRegistry& registry) {
                  180, &ParticleEmitter::spread, kPi / 180.0));
   registry.add(vec3_key(line("gloam.particles.box", "[1, 1, 1]", "m", "size of the box in which particles are emitted"),
                         0, 1e6, &ParticleEmitter::box_m));
+  registry.add_finish("particles", [](World& world) {
+    const auto unit_m = static_cast<float>(metres_per_unit(world));
+    world.view<ParticleEmitter>().each([&](ParticleEmitter& emitter) {
+      emitter.speed /= unit_m;
+      emitter.metres_per_unit = unit_m;
+    });
+    return Status();
+  });
 }
 
 }  // namespace gloam

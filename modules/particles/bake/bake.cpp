@@ -100,6 +100,7 @@ std::uint64_t particle_light_content(const World& world, const SceneTracer& trac
   hasher.bytes_of(sky.sky_zenith).bytes_of(sky.sky_horizon).bytes_of(sky.sky_ground);
   for (const PlacedEmitter& emitter : gather_bake_emitters(world, options)) {
     hasher.bytes_of(emitter.origin).bytes_of(emitter.bounds.min).bytes_of(emitter.bounds.max);
+    if (emitter.values.metres_per_unit != 1.0f) hasher.bytes_of(emitter.values.metres_per_unit);
   }
   if (options != ParticleBakeOptions{}) add_options(hasher, options);
   return hasher.digest();

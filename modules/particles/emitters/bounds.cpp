@@ -23,7 +23,7 @@ float largest_sprite_m(const ParticleEmitter& emitter) {
 }
 
 WorldBox emitter_bounds(const PlacedEmitter& emitter) {
-  const KindProperties& kind = kind_properties(emitter.values.kind);
+  const KindProperties kind = kind_of(emitter.values);
   const double life = static_cast<double>(emitter.values.lifetime_s), drag = static_cast<double>(kind.drag);
   // Without turbulence, the way of a particle is v₀ · way + rise · (life − way). It ends on the path of an older one.
   const double way = (1.0 - std::exp(-drag * life)) / drag;

@@ -52,7 +52,8 @@ Puff puff_at(const ParticleEmitter& e, const KindProperties& kind, double age) {
 
 std::vector<Puff> puffs_of(const ParticleEmitter& emitter) {
   std::vector<Puff> puffs;
-  for (int i = 0; i < kAges; ++i) puffs.push_back(puff_at(emitter, kind_properties(emitter.kind), (i + 0.5) / kAges));
+  const KindProperties kind = kind_of(emitter);
+  for (int i = 0; i < kAges; ++i) puffs.push_back(puff_at(emitter, kind, (i + 0.5) / kAges));
   return puffs;
 }
 

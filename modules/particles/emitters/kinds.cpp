@@ -78,4 +78,13 @@ const KindProperties& kind_properties(EmitterKind kind) {
   return kFog;
 }
 
+KindProperties kind_of(const ParticleEmitter& emitter) {
+  KindProperties kind = kind_properties(emitter.kind);
+  const float units = 1.0f / emitter.metres_per_unit;
+  kind.rise *= units;
+  kind.turbulence *= units;
+  kind.swirl_m *= units;
+  return kind;
+}
+
 }  // namespace gloam

@@ -28,5 +28,7 @@ struct KindProperties {
 
 /// kind: not none.
 [[nodiscard]] const KindProperties& kind_properties(EmitterKind kind);
+/// Those of the emitter's kind, with lengths in units of the world.
+[[nodiscard]] KindProperties kind_of(const ParticleEmitter& emitter);
 
 }  // namespace gloam

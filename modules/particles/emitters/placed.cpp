@@ -14,7 +14,8 @@ namespace {
 
 bool has_finite_values(const ParticleEmitter& e) {
   return std::isfinite(e.rate) && std::isfinite(e.lifetime_s) && std::isfinite(e.size_m) && std::isfinite(e.speed) &&
-         std::isfinite(e.spread) && is_finite(e.box_m);
+         std::isfinite(e.spread) && is_finite(e.box_m) && std::isfinite(1.0f / e.metres_per_unit) &&
+         e.metres_per_unit > 0.0f;
 }
 
 bool has_finite_columns(const dmat4& m) {
@@ -27,10 +28,10 @@ bool has_finite_columns(const dmat4& m) {
 ParticleEmitter clamped(ParticleEmitter e) {
   e.rate = std::clamp(e.rate, 1e-9f, 1e6f);  // the time between births is finite
   e.lifetime_s = std::clamp(e.lifetime_s, 1e-3f, 1e4f);
-  e.size_m = std::clamp(e.size_m, 0.0f, 1e3f);
-  e.speed = std::clamp(e.speed, 0.0f, 1e3f);
+  e.size_m = std::clamp(e.size_m, 0.0f, std::max(1e3f, 1e3f / e.metres_per_unit));
+  e.speed = std::clamp(e.speed, 0.0f, 1e3f / e.metres_per_unit);
   e.spread = std::clamp(e.spread, 0.0f, kPi);
-  e.box_m = glm::clamp(e.box_m, vec3(0.0f), vec3(1e6f));
+  e.box_m = glm::clamp(e.box_m, vec3(0.0f), vec3(std::max(1e6f, 1e6f / e.metres_per_unit)));
   return e;
 }
 

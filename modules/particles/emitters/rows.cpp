@@ -19,14 +19,15 @@ float swirl_time(std::int64_t step, std::uint32_t seed) {
   return static_cast<float>(phase - std::floor(phase));
 }
 
-/// Distance of most particles from the column above the emitter, metres.
+/// Distance of most particles from the column above the emitter.
 float usual_radius(const PlacedEmitter& emitter) {
-  const KindProperties& kind = kind_properties(emitter.values.kind);
+  const KindProperties kind = kind_of(emitter.values);
   const float life = emitter.values.lifetime_s, way = (1.0f - std::exp(-kind.drag * life)) / kind.drag;
   float box = 0.0f;
   for (const vec3& edge : emitter.box) box = std::max({box, std::abs(edge.x), std::abs(edge.z)});
   const float sideways = emitter.values.speed * std::sin(std::min(emitter.values.spread, 0.5f * kPi)) * way;
-  return 0.25f * box + 0.4f * sideways + 0.1f * kind.turbulence * life + 0.1f * emitter.largest_m + 1e-4f;
+  return 0.25f * box + 0.4f * sideways + 0.1f * kind.turbulence * life + 0.1f * emitter.largest_m +
+         1e-4f / emitter.values.metres_per_unit;
 }
 
 void set_directions(const PlacedEmitter& emitter, shaders::ParticleEmitterRow& row) {
@@ -80,7 +81,7 @@ shaders::ParticleEmitterRow emitter_row(const PlacedEmitter& emitter, const Visi
   row.box_z = emitter.box[2];
   row.speed = emitter.values.speed;
   set_directions(emitter, row);
-  set_kind(kind_properties(emitter.values.kind), row);
+  set_kind(kind_of(emitter.values), row);
   row.seed = seed_of(emitter.entity);
   row.oldest = static_cast<std::uint32_t>(visible.live.oldest);
   row.count = visible.live.count;

@@ -11,6 +11,7 @@
 #include "engine/scene/assets.h"
 #include "engine/scene/components.h"
 #include "modules/reflections/materials.h"
+#include "modules/reflections/scene_unit.h"
 
 namespace gloam {
 namespace {
@@ -30,7 +31,7 @@ double mirror_weight(const Material& material) {
 }
 
 /// Adds the primitive's horizontal triangles, a patch each.
-void add_triangles(const Primitive& primitive, double weight, const dmat4& world_from_mesh,
+void add_triangles(const Primitive& primitive, double weight, const dmat4& world_from_mesh, double thickness,
                    std::vector<MirrorPatch>& triangles) {
   const auto corner = [&](std::size_t i) {
     return dvec3(world_from_mesh * dvec4(dvec3(primitive.positions[primitive.indices[i]]), 1.0));
@@ -43,16 +44,16 @@ void add_triangles(const Primitive& primitive, double weight, const dmat4& world
     if (!std::isfinite(length) || !(normal.y > kLeastUp * length)) continue;
     MirrorPatch patch{glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)), (a.y + b.y + c.y) / 3.0,
                       0.5 * length * weight};
-    if (patch.max.y - patch.min.y <= kPlaneThickness_m && patch.mirrors_m2 > 0.0) triangles.push_back(patch);
+    if (patch.max.y - patch.min.y <= thickness && patch.mirrors_m2 > 0.0) triangles.push_back(patch);
   }
 }
 
 /// Joins triangles from the lowest one up, as long as they fit into one plane.
-std::vector<MirrorPatch> joined(std::vector<MirrorPatch> triangles) {
+std::vector<MirrorPatch> joined(std::vector<MirrorPatch> triangles, double thickness) {
   std::ranges::sort(triangles, {}, [](const MirrorPatch& patch) { return patch.min.y; });
   std::vector<MirrorPatch> patches;
   for (const MirrorPatch& triangle : triangles) {
-    if (patches.empty() || triangle.max.y - patches.back().min.y > kPlaneThickness_m) {
+    if (patches.empty() || triangle.max.y - patches.back().min.y > thickness) {
       patches.push_back(triangle);
       continue;
     }
@@ -66,14 +67,15 @@ std::vector<MirrorPatch> joined(std::vector<MirrorPatch> triangles) {
   return patches;
 }
 
-std::vector<MirrorPatch> patches_of(const SceneAssets& assets, std::uint32_t mesh, const dmat4& world_from_mesh) {
+std::vector<MirrorPatch> patches_of(const SceneAssets& assets, std::uint32_t mesh, const dmat4& world_from_mesh,
+                                    double thickness) {
   std::vector<MirrorPatch> triangles;
   for (const Primitive& primitive : assets.meshes[mesh].primitives) {
     const bool known = primitive.material < assets.materials.size();
     const double weight = mirror_weight(known ? assets.materials[primitive.material] : Material{});
-    if (weight > 0.0) add_triangles(primitive, weight, world_from_mesh, triangles);
+    if (weight > 0.0) add_triangles(primitive, weight, world_from_mesh, thickness, triangles);
   }
-  return joined(std::move(triangles));
+  return joined(std::move(triangles), thickness);
 }
 
 bool is_mirror(const SceneAssets& assets, std::uint32_t mesh) {
@@ -114,7 +116,9 @@ bool MirrorPatches::update_meshes(const SceneAssets& assets) {
 
 void MirrorPatches::update(const World& world) {
   const SceneAssets& assets = world.resource<SceneAssets>();
-  bool changed = update_meshes(assets);
+  const double unit = scene_unit(world);
+  const bool same_unit = std::exchange(unit_, unit) == unit;
+  bool changed = update_meshes(assets) || !same_unit;
   std::size_t count = 0;
   world.view<const MeshInstance, const WorldTransform, Maybe<const MorphInstance>>().each(
       [&](Entity entity, const MeshInstance& instance, const WorldTransform& transform, const MorphInstance* morph) {
@@ -123,9 +127,10 @@ void MirrorPatches::update(const World& world) {
         if (count == instances_.size()) instances_.emplace_back();
         Instance& known = instances_[count++];
         if (known.entity == entity && known.mesh == instance.mesh && known.world_from_mesh == transform.matrix &&
-            changed_[instance.mesh] == 0)
+            changed_[instance.mesh] == 0 && same_unit)
           return;
-        known = {entity, instance.mesh, transform.matrix, patches_of(assets, instance.mesh, transform.matrix)};
+        known = {entity, instance.mesh, transform.matrix,
+                 patches_of(assets, instance.mesh, transform.matrix, kPlaneThickness * unit)};
         ++searched_;
         changed = true;
       });

@@ -12,12 +12,12 @@
 
 namespace gloam {
 
-/// Surfaces whose heights differ by at most this count as one plane, metres.
-inline constexpr double kPlaneThickness_m = 0.02;
+/// Surfaces whose heights differ by at most this many scene_unit()s count as one plane.
+inline constexpr double kPlaneThickness = 0.02;
 
 /// A horizontal, up-facing mirror-like part of a mesh instance.
 struct MirrorPatch {
-  dvec3 min = dvec3(0.0);  ///< bounds in the world; max.y − min.y ≤ kPlaneThickness_m
+  dvec3 min = dvec3(0.0);  ///< bounds in the world; max.y − min.y ≤ kPlaneThickness scene_unit()s
   dvec3 max = dvec3(0.0);
   double height_m = 0.0;    ///< mean by area
   double mirrors_m2 = 0.0;  ///< area, weighted by how much of a mirror the material is; > 0
@@ -43,6 +43,7 @@ class MirrorPatches {
   /// Finds out which meshes have changed and which are mirrors. Returns whether patches may differ.
   [[nodiscard]] bool update_meshes(const SceneAssets& assets);
 
+  double unit_ = 1.0;                  ///< scene_unit() of the last update
   std::uint64_t version_ = 0;          ///< of SceneAssets; 0: none
   std::uint64_t revision_ = 0;         ///< of SceneAssets
   std::vector<std::uint8_t> mirrors_;  ///< by mesh: 1 if it has a mirror-like material

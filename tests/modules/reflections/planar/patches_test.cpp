@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "engine/scene/gltf/import.h"
+#include "engine/scene/units.h"
 #include "modules/reflections/planar/mirror.h"
+#include "modules/reflections/scene_unit.h"
 #include "tests/support/render_scene.h"
 
 namespace gloam {
@@ -31,7 +33,7 @@ struct MirrorPlanes : testing::Test {
   [[nodiscard]] std::optional<PlanarMirror> chosen(const dvec3& eye = {0.0, 3.0, 8.0},
                                                    const dvec3& target = dvec3(0.0)) {
     patches.update(world);
-    return choose_mirror(patches.all(), make_view(test::look_at(eye, target, 64, 48), 0));
+    return choose_mirror(patches.all(), make_view(test::look_at(eye, target, 64, 48), 0), scene_unit(world));
   }
 
   World world;
@@ -58,7 +60,25 @@ TEST_F(MirrorPlanes, surfaces_within_two_centimetres_are_one_plane) {
   EXPECT_NEAR(mirror_plane->height_m, 0.109, 1e-6);
   for (const double height : {0.1, 0.109, 0.118})
     EXPECT_LE(std::abs(height - mirror_plane->height_m), mirror_plane->slack_m);
-  EXPECT_LT(mirror_plane->slack_m, kPlaneThickness_m);
+  EXPECT_LT(mirror_plane->slack_m, kPlaneThickness);
+}
+
+TEST_F(MirrorPlanes, the_same_scene_in_other_units_has_the_same_plane) {
+  for (const double unit : {1e-3, 1.0, 1e3}) {
+    world.set_resource(SceneUnits{1.0 / unit});
+    const std::uint32_t mirror = material(1.0f);
+    std::vector<Entity> made;
+    made.push_back(floor(0.2 * unit, dvec3(0.0, 1.0, 0.0) * unit, mirror));
+    for (int i = 0; i < 3; ++i)
+      made.push_back(floor(1.5 * unit, dvec3(2.0 * i - 2.0, 0.1 + 0.009 * i, 0.0) * unit, mirror));
+    made.push_back(floor(1.5 * unit, dvec3(0.0, 0.14, 0.0) * unit, mirror));
+    const auto plane = chosen(dvec3(0.0, 3.0, 8.0) * unit);
+    ASSERT_TRUE(plane);
+    EXPECT_NEAR(plane->height_m, 0.109 * unit, 1e-6 * unit);
+    EXPECT_NEAR(plane->slack_m, (0.009 + 0.005) * unit, 1e-5 * unit);
+    EXPECT_NEAR(mirrored_settings({}, *plane, 2, unit).mirror->margin_m, (0.009 + 0.001) * unit, 1e-5 * unit);
+    for (const Entity entity : made) world.destroy(entity);
+  }
 }
 
 TEST_F(MirrorPlanes, walls_ceilings_and_slopes_are_none) {
@@ -87,11 +107,11 @@ TEST_F(MirrorPlanes, an_orthographic_camera_that_looks_up_has_none) {
   ViewSettings settings = test::look_at({0.0, 0.0, 8.0}, {0.0, 2.0, 0.0}, 64, 48);
   settings.camera.orthographic = true;
   settings.camera.half_height_m = 4.0f;
-  EXPECT_FALSE(choose_mirror(patches.all(), make_view(settings, 0)));
+  EXPECT_FALSE(choose_mirror(patches.all(), make_view(settings, 0), 1.0));
   settings = test::look_at({0.0, 4.0, 8.0}, {0.0, 1.0, 0.0}, 64, 48);
   settings.camera.orthographic = true;
   settings.camera.half_height_m = 4.0f;
-  EXPECT_TRUE(choose_mirror(patches.all(), make_view(settings, 0)));
+  EXPECT_TRUE(choose_mirror(patches.all(), make_view(settings, 0), 1.0));
 }
 
 TEST_F(MirrorPlanes, only_instances_that_change_are_searched_again) {
@@ -115,7 +135,7 @@ TEST_F(MirrorPlanes, only_instances_that_change_are_searched_again) {
 
 TEST_F(MirrorPlanes, the_mirrored_view_sees_the_same_part_of_the_world_for_odd_sizes) {
   ViewSettings main = test::look_at({0.0, 3.0, 8.0}, dvec3(0.0), 7, 5);
-  const ViewSettings half = mirrored_settings(main, {.height_m = 0.5, .slack_m = 0.01}, 2);
+  const ViewSettings half = mirrored_settings(main, {.height_m = 0.5, .slack_m = 0.01}, 2, 1.0);
   EXPECT_EQ(half.width, 4u);
   EXPECT_EQ(half.height, 3u);
   const RenderView view = make_view(main, 0), mirrored = make_view(half, 0);
