@@ -23,10 +23,10 @@ constexpr double kLeastStart = 1e-3;       // share of the far depth: logarithmi
 constexpr double kReachUnknown = 256.0;    // radii to each side of a sphere when the casters' bounds are unknown
 constexpr double kMostReach = 16384.0;     // most radii to each side of a sphere: depths keep a texel's precision
 constexpr double kWideCasters = 256.0;  // radii; of casters that reach farther, only what is beside the sphere counts
-constexpr double kLeastDepth = 1e-3;     // least depth of a box, in radii of its sphere
-constexpr double kLeastRadius = 1e-12;   // least radius of the casters' sphere, as a share of their coordinates
-constexpr double kLeastFar = 1e-3;       // least depth of the cascades, as a share of the near plane's
-constexpr double kStepsOfRange = 16.0;   // depth ranges begin and end at multiples of about range / this
+constexpr double kLeastDepth = 1e-3;    // least depth of a box, in radii of its sphere
+constexpr double kLeastRadius = 1e-12;  // least radius of the casters' sphere, as a share of their coordinates
+constexpr double kLeastFar = 1e-3;      // least depth of the cascades, as a share of the near plane's
+constexpr double kStepsOfRange = 16.0;  // depth ranges begin and end at multiples of about range / this
 
 /// The least power of two ≥ value.
 double power_above(double value) { return std::exp2(std::ceil(std::log2(value))); }
