@@ -8,8 +8,9 @@
 
 namespace gloam {
 
-/// How much the change of the normal from pixel to pixel widens highlights: the square of a surface's GGX width grows
-/// by `variance` times the sum of the squares of both changes. A view resource; a view without it has 0.
+/// How much the change of the normal from pixel to pixel widens highlights: `variance` times twice the solid angle of
+/// the normals in a pixel is the square of the width that is added (normal_spread_in_pixel in surface_api.glsl). A view
+/// resource; a view without it has 0.
 struct HighlightFilter {
   float variance = 0.0f;
 };

@@ -36,7 +36,8 @@ inline constexpr ChoiceKnob<std::uint32_t> kToneMapTable{
 inline constexpr OnOffKnob kSpecularAntialiasing{
     .name = "lighting.specular_antialiasing",
     .meaning = "surfaces whose normal changes within a pixel have wider highlights, which do not flicker",
-    .choices = {{"on", true}, {"off", false}}};
+    .choices = {{"on", true}, {"off", false}},
+    .default_value = true};
 inline constexpr OnOffKnob kDither{
     .name = "lighting.dither",
     .meaning = "rounding of the picture to 8 bits with a fixed pattern, so that gradients show no bands",

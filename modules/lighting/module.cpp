@@ -41,7 +41,7 @@ class LightingModule final : public Module {
   }
 
   void prepare_view(World& world, ViewId view, const KnobRegistry& registry) const override {
-    // Twice the variance of a Gaussian of half a pixel's area, which is near a pixel's own filter.
+    // Tokuyoshi and Kaplanyan: twice the variance 1 / 2π of a Gaussian of a pixel.
     constexpr float kPixelVariance = 0.32f;
     const bool filters = registry.value(kSpecularAntialiasing) && world.try_resource<PointSampledFrame>() == nullptr;
     const float variance = filters ? kPixelVariance : 0.0f;

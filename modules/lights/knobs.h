@@ -31,7 +31,9 @@ inline constexpr IntegerKnob<std::uint32_t> kFixedLightSlots{
 inline constexpr OnOffKnob kEmitterHighlights{
     .name = "lights.emitter_highlights",
     .meaning = "highlights as wide as the light that makes them (on), or as of a point (off)",
-    .choices = {{"on", true}, {"off", false}}};
+    .choices = {{"on", true}, {"off", false}},
+    .default_value = true,
+    .exact = true};
 inline constexpr OnOffKnob kLightCheck{
     .name = "lights.check",
     .meaning =

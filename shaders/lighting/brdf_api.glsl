@@ -17,7 +17,8 @@ struct ShadingPoint {
   float alpha2;   // roughness⁴
   float n_dot_v;  // > 0
   float n_dot_v_raw;
-  float smith_v;  // the part of the Smith visibility term that does not depend on the light
+  float smith_v;        // the part of the Smith visibility term that does not depend on the light
+  float normal_spread;  // of the pixel, see spread_highlight; 0: a point's
 };
 
 ShadingPoint shading_point(vec3 position, vec3 to_eye, vec3 normal, vec3 base_color, float metallic, float roughness) {
@@ -32,23 +33,51 @@ ShadingPoint shading_point(vec3 position, vec3 to_eye, vec3 normal, vec3 base_co
   p.n_dot_v_raw = dot(normal, to_eye);
   p.n_dot_v = max(p.n_dot_v_raw, 1e-3);
   p.smith_v = sqrt(p.n_dot_v * (p.n_dot_v - p.n_dot_v * p.alpha2) + p.alpha2);
+  p.normal_spread = 0.0;
   return p;
 }
 
-// Factor on the GGX distribution of a light whose directions fill a disc of this apparent radius. The slopes of its
-// half vectors then fill a disc of radius r = half_angle / (2 sqrt(v·h)), of the same solid angle. Each slope gets the
+// The slopes of half vectors to a light of this apparent radius fill a disc of the square of the radius
+// half_angle / (2 sqrt(v·h)), of the same solid angle.
+float half_vector_radius2(float v_dot_h, float half_angle) {
+  return 0.25 * half_angle * half_angle / max(v_dot_h, 1e-3);
+}
+
+// Factor on the GGX distribution of a light whose half vectors' slopes fill a disc of radius r. Each slope gets the
 // distribution at the slope that is nearer to the normal by a shift s, over the integral of that over all slopes, so
 // that it adds no light: with a = alpha, the integral is (a² + π/2 a s + s²) / a². The s for which it is (a² + r²) / a²
 // also makes the middle of the highlight as bright as the mean of the distribution over the disc. A mirror then shows
 // the disc with its luminance, and a rough surface hardly changes.
-float disc_highlight(ShadingPoint p, float n_dot_h, float v_dot_h, float half_angle) {
-  float radius2 = 0.25 * half_angle * half_angle / max(v_dot_h, 1e-3);
-  float part = 0.25 * kPi * sqrt(p.alpha2);
+float disc_highlight(float alpha2, float slope, float radius2) {
+  float part = 0.25 * kPi * sqrt(alpha2);
   float shift = radius2 / (sqrt(part * part + radius2) + part);
-  float slope = sqrt(max(1.0 - n_dot_h * n_dot_h, 0.0)) / max(n_dot_h, 1e-3);
   float nearest = max(slope - shift, 0.0);
-  float fall = (p.alpha2 + slope * slope) / (p.alpha2 + nearest * nearest);
-  return fall * fall * p.alpha2 / (p.alpha2 + radius2);
+  float fall = (alpha2 + slope * slope) / (alpha2 + nearest * nearest);
+  return fall * fall * alpha2 / (alpha2 + radius2);
+}
+
+// Distribution of half vectors of a pixel whose normals' slopes spread like a Gaussian exp(-s² / spread). GGX as wide
+// as both together would be wrong on both sides: its peak still falls between pixels, and its tails are those of a
+// rough surface, which are seen far around a bright light. A share q of the light goes to a wide GGX, with the tails of
+// the surface's own, and the rest to a core without tails:
+//   q = a² / (a² + 1.5 spread)
+//   core(s²) = 1 / (1 + exp((s² - r²) / t)) / (π t ln(1 + exp(r² / t)))
+// which is nearly a Gaussian for a light that is a point, and for a disc of radius r the disc with an edge as wide as
+// t / r. Both integrate to 1 over all slopes. The factors 1.5 make the peak right where a² is large, and within 2 %
+// where it equals the spread. The factors of t make the core of a point as wide as the Gaussian and the edges of discs
+// two thirds of that: the sum over pixels of no disc varies by more than 3 % with its place.
+float spread_distribution(ShadingPoint p, float n_dot_h, float radius2) {
+  float cos2 = max(n_dot_h * n_dot_h, 1e-6);
+  float slope2 = max(1.0 - cos2, 0.0) / cos2;
+  float wide2 = p.alpha2 + 1.5 * p.normal_spread;
+  float tails = p.alpha2 / wide2;
+  float fall = wide2 + slope2;
+  float ggx = wide2 / (kPi * fall * fall) * (radius2 > 0.0 ? disc_highlight(wide2, sqrt(slope2), radius2) : 1.0);
+  float core2 = p.normal_spread + 1.5 * p.alpha2;
+  float t = sqrt(core2 * (0.71 * core2 + 0.3 * radius2));
+  float edge = radius2 / t;
+  float core = 1.0 / ((1.0 + exp(min((slope2 - radius2) / t, 80.0))) * kPi * t * (edge + log(1.0 + exp(-edge))));
+  return mix(core, ggx, tails) / (cos2 * cos2);
 }
 
 // Radiance toward the eye for an illuminance (on a plane that faces the light) from the unit direction `to_light`. For
@@ -64,7 +93,13 @@ vec3 reflected_disc(ShadingPoint p, vec3 to_light, vec3 illuminance, float half_
   float f = (n_dot_h * p.alpha2 - n_dot_h) * n_dot_h + 1.0;
   float smith = n_dot_l * p.smith_v + p.n_dot_v * sqrt(n_dot_l * (n_dot_l - n_dot_l * p.alpha2) + p.alpha2);
   float specular = 0.5 * p.alpha2 / (kPi * f * f * smith);  // distribution · visibility
-  if (half_angle > 0.0) specular *= disc_highlight(p, n_dot_h, v_dot_h, half_angle);
+  float radius2 = half_vector_radius2(v_dot_h, half_angle);
+  if (p.normal_spread > 0.0) {
+    specular = 0.5 * spread_distribution(p, n_dot_h, radius2) / smith;
+  } else if (half_angle > 0.0) {
+    float slope = sqrt(max(1.0 - n_dot_h * n_dot_h, 0.0)) / max(n_dot_h, 1e-3);
+    specular *= disc_highlight(p.alpha2, slope, radius2);
+  }
   float one = 1.0 - v_dot_h;
   float one2 = one * one;
   vec3 fresnel = p.f0 + (1.0 - p.f0) * (one2 * one2 * one);

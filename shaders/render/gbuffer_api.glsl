@@ -4,7 +4,7 @@
 #define GLOAM_SHADERS_RENDER_GBUFFER_API_GLSL
 
 // Layout of the geometry buffer:
-//   base color  rgba8_unorm  square roots of rgb, a = subsurface 0 or 1
+//   base color  rgba8_unorm  square roots of rgb, a = subsurface 0 or 1, and between them the spread of normals
 //               (in dark colours square roots are as precise as sRGB; they take one instruction)
 //   normals     rg32_uint    octahedral shading normal, octahedral face normal
 //   material    rgba8_unorm  roughness, metallic, occlusion, reflectivity
@@ -14,7 +14,7 @@
 //   motion      rg32f        pixels since the previous frame (motion_api.glsl); only in frames that need it
 //
 // A fragment shader of PassPhase::geometry writes locations 0 to 3, and location 4 if the frame has motion:
-//   layout(location = 0) out vec4 out_base_color;   encode_base_color(base_color, subsurface)
+//   layout(location = 0) out vec4 out_base_color;   encode_base_color(base_color, subsurface), or with spread
 //   layout(location = 1) out uvec4 out_normals;     encode_normals(normal, face_normal), both towards the viewer
 //   layout(location = 2) out vec4 out_material;     vec4(roughness, metallic, occlusion, reflectivity), each 0…1
 //   layout(location = 3) out vec4 out_emissive;     vec4(emissive, 0.0), emissive in cd/m²
@@ -25,6 +25,7 @@
 struct GBufferTexel {
   vec3 base_color;
   bool subsurface;
+  float normal_spread;  // square of a width of slopes (normal_spread_in_pixel), 0…0.18
   vec3 normal;
   vec3 face_normal;
   float roughness;
@@ -33,9 +34,23 @@ struct GBufferTexel {
   float reflectivity;
 };
 
-// base_color: linear.
-vec4 encode_base_color(vec3 base_color, bool subsurface) {
-  return vec4(sqrt(max(base_color, vec3(0.0))), subsurface ? 1.0 : 0.0);
+// The spread is stored in alpha by its distance from the flag that alpha holds, in 126 steps of 10 %.
+const float kGreatestSpread = 0.18;
+const float kSpreadSteps = 126.0;
+const float kSpreadOctaves = 17.5;
+
+// base_color: linear. normal_spread: 0…kGreatestSpread.
+vec4 encode_base_color(vec3 base_color, bool subsurface, float normal_spread) {
+  float step_of = kSpreadSteps + log2(max(normal_spread, 1e-9) / kGreatestSpread) * (kSpreadSteps / kSpreadOctaves);
+  float code = max(floor(step_of + 0.5), 0.0) / 255.0;
+  return vec4(sqrt(max(base_color, vec3(0.0))), subsurface ? 1.0 - code : code);
+}
+
+vec4 encode_base_color(vec3 base_color, bool subsurface) { return encode_base_color(base_color, subsurface, 0.0); }
+
+float decode_normal_spread(float alpha) {
+  float code = 255.0 * min(alpha, 1.0 - alpha);
+  return code < 0.5 ? 0.0 : kGreatestSpread * exp2((code - kSpreadSteps) * (kSpreadOctaves / kSpreadSteps));
 }
 
 // Normals of any length above 0, in world axes.
@@ -47,6 +62,7 @@ GBufferTexel decode_gbuffer(vec4 base_color, uvec2 normals, vec4 material) {
   GBufferTexel g;
   g.base_color = base_color.rgb * base_color.rgb;
   g.subsurface = base_color.a > 0.5;
+  g.normal_spread = decode_normal_spread(base_color.a);
   g.normal = unpack_normal(normals.x);
   g.face_normal = unpack_normal(normals.y);
   g.roughness = material.x;

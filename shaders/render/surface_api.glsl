@@ -34,8 +34,9 @@ struct Surface {
   float metallic;
   float roughness;
   float occlusion;
-  float reflectivity;  // 0…1
-  vec3 emissive;       // cd/m²
+  float reflectivity;   // 0…1
+  float normal_spread;  // normal_spread_in_pixel
+  vec3 emissive;        // cd/m²
   bool subsurface;
 };
 
@@ -50,16 +51,21 @@ vec2 texture_uv(int slot) {
 
 float size_of(vec3 v) { return abs(v.x) + abs(v.y) + abs(v.z); }
 
-// Roughness of a pixel in which the normal changes: each normal sends a highlight elsewhere, so the pixel's lobe is
-// that of the surface and the spread of its normals together. GGX slopes have the width alpha = roughness²; widths add
-// as squares. The spread is limited, because a large one is an edge, not a curve (Tokuyoshi and Kaplanyan 2019).
-// variance: 0: off.
-float filtered_roughness(float roughness, vec3 normal, float variance) {
+// Square of the width of the slopes of the normals that a pixel shows, as the square of a Gaussian's width where it has
+// fallen to 1/e. It follows Tokuyoshi and Kaplanyan 2019 with two changes. First, it is the solid angle of the normals,
+// and not the sum of the squares of their changes along both axes. The two agree on a sphere. A thin pole has normals
+// along an arc, and a width in all directions would show it lights that none of its normals reflects. Second, their
+// width is twice that of a pixel, so that highlights which are narrower than a pixel are as bright wherever they fall.
+// Wide highlights get the variance of a pixel's square, a share kPixelShare of it. The spread is limited, because a
+// large one is an edge, not a curve, and 0 where it changes the highlights of the roughness little. variance: 0: off.
+const float kPixelShare = 0.26;
+float normal_spread_in_pixel(float roughness, vec3 normal, float variance) {
   vec3 n = normalize(normal);
-  vec3 dx = dFdx(n), dy = dFdy(n);
-  float spread = min(variance * (dot(dx, dx) + dot(dy, dy)), 0.18);
-  float alpha2 = roughness * roughness * roughness * roughness;
-  return spread > 1e-3 * max(alpha2, 1e-6) ? sqrt(sqrt(min(alpha2 + spread, 1.0))) : roughness;
+  float spread = min(2.0 * variance * length(cross(dFdx(n), dFdy(n))), 0.18);
+  float alpha = max(roughness * roughness, 1e-3);
+  float own = 2.0 * alpha * alpha;
+  spread *= (spread + kPixelShare * own) / (spread + own);
+  return spread > 0.02 * own ? spread : 0.0;
 }
 
 // Fetches the surface at a fragment; discards masked fragments. Its normals have any length above 0, which is enough
@@ -111,7 +117,7 @@ Surface fetch_surface_unscaled(vec3 to_viewer, float normal_variance) {
   s.subsurface = material.extras.x > 0.5;
   float smoothness = 1.0 - s.roughness;
   s.reflectivity = material.extras.y >= 0.0 ? material.extras.y : smoothness * mix(0.5, 1.0, s.metallic);
-  if (normal_variance > 0.0) s.roughness = filtered_roughness(s.roughness, s.normal, normal_variance);
+  s.normal_spread = normal_variance > 0.0 ? normal_spread_in_pixel(s.roughness, s.normal, normal_variance) : 0.0;
   // Last, because derivatives and texture lookups above need whole quads.
   if ((kSurface & GLOAM_SURFACE_MASK) != 0u && s.base_color.a < material.emissive_cutoff.a) discard;
   return s;

@@ -21,6 +21,7 @@ void main() {
   vec3 to_eye = normalize(to_viewer(view, in_relative));
   Surface s = fetch_surface(to_eye, view.normal_variance);
   ShadingPoint p = shading_point(in_relative, to_eye, s.normal, s.base_color.rgb, s.metallic, s.roughness);
+  p.normal_spread = s.normal_spread;
   set_receiver(in_relative, s.face_normal, s.subsurface);
   vec3 light = s.emissive + ambient(environment, p, s.roughness, s.occlusion);
   add_forward_lights(light, p, uvec2(gl_FragCoord.xy));

@@ -86,6 +86,7 @@ void main() {
                                   texelFetch(material_image, pixel, 0));
   vec3 to_eye = normalize(to_viewer(view, position));
   ShadingPoint p = shading_point(position, to_eye, g.normal, g.base_color, g.metallic, g.roughness);
+  p.normal_spread = g.normal_spread;
   vec3 light = texelFetch(emissive_image, pixel, 0).rgb + ambient_light(p, g.roughness, g.occlusion);
   set_receiver(position, g.face_normal, g.subsurface);
 #ifdef GLOAM_SHADOWS_BINDING

@@ -27,7 +27,7 @@ layout(location = 4) out vec2 out_motion;
 void main() {
   Surface s = fetch_surface_unscaled(to_viewer(view, in_relative),
                                      view.normal_variance);  // pack_normal takes normals of any length
-  out_base_color = encode_base_color(s.base_color.rgb, s.subsurface);
+  out_base_color = encode_base_color(s.base_color.rgb, s.subsurface, s.normal_spread);
   out_normals = encode_normals(s.normal, s.face_normal);
   out_material = vec4(s.roughness, s.metallic, s.occlusion, s.reflectivity);
   out_emissive = vec4(s.emissive, 0.0);
