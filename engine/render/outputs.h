@@ -39,10 +39,10 @@ struct GeometryOutputs {
   ImageRef smooth_surfaces;
 };
 
-/// Linear light of the view, cd/m² before exposure, rgba16f. The renderer creates the image and shading fills it. Later
-/// passes write it in place, or read it and write their result to another image of the same size and format, for
-/// example a transient one (create_view_image). Either way, the pass puts the written version into `color`. An image
-/// that is owned outside the graph must have been created as sampled.
+/// Linear light of the view, cd/m² before exposure · RenderView::light_scale, rgba16f. The renderer creates the image
+/// and shading fills it. Later passes write it in place, or read it and write their result to another image of the same
+/// size and format, for example a transient one (create_view_image). Either way, the pass puts the written version into
+/// `color`. An image that is owned outside the graph must have been created as sampled.
 struct LitOutput {
   ImageRef color;
 };

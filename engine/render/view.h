@@ -123,6 +123,9 @@ struct RenderView : ViewProjection {
   bool clipped = false;   ///< only what is on the visible side of clip_plane is drawn
   vec4 clip_plane = vec4(0.0f);  ///< dot(xyz, p) + w ≥ 0 is visible; p: camera-relative
   bool static_only = false;      ///< of ViewSettings
+  /// Factor from cd/m² and lux to the light in the view's images (light_scale()); 1 if the light goes to an image of
+  /// the caller. Whatever brings light into a view multiplies it: lights, sky, emission, fog, captures.
+  float light_scale = 1.0f;
   /// The view that this one is a companion of; its own id if it is none.
   ViewId main_view{0};
   bool has_companions = false;

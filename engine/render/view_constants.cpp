@@ -15,6 +15,7 @@ shaders::ViewConstants view_constants(const RenderView& view) {
   constants.orthographic = view.camera.orthographic ? 1 : 0;
   constants.frame = static_cast<std::uint32_t>(view.frame);
   constants.clip_plane = view.clip_plane;
+  constants.light_scale = view.light_scale;
 
   const dvec3 right(rows[0]), up(rows[1]);
   const dmat4 clip(view.clip_from_view);

@@ -63,7 +63,8 @@ void add_fog_passes(FrameBuilder& frame, const Fog& fog) {
   const ImageRef glow = add_glow_passes(frame, divisor, static_cast<float>(frame.knobs().value(kFogRadius)));
   LitOutput& lit = frame.get<LitOutput>();
   DrawPass pass(frame, "fog_apply", apply_program(frame.view().camera.orthographic, divisor));
-  pass.uniform("fog", shaders::FogConstants{vec4(fog.color, 0.0f), fog.density, kFogForwardShare, fog.sky_distance_m});
+  pass.uniform("fog", shaders::FogConstants{vec4(fog.color * frame.view().light_scale, 0.0f), fog.density,
+                                            kFogForwardShare, fog.sky_distance_m});
   pass.read("depth_image", front_depth(frame));
   pass.read("glow_image", glow, Sampling::linear);
   lit.color = pass.target(lit.color, gpu::LoadOp::load);  // the fog is blended over the light

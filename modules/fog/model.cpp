@@ -11,7 +11,6 @@
 namespace gloam {
 namespace {
 
-constexpr double kMostLight = 65504.0;    // of rgba16f
 constexpr double kReferenceRadius = 6.0;  // standard deviations; the weight cut off is below 1e-8
 
 /// One direction of the blur, for three doubles per texel. `lines`: number of lines, `line_step` texels apart; `count`:
@@ -59,7 +58,7 @@ GlowKernel glow_kernel(std::uint32_t height, std::uint32_t divisor, float radius
 }
 
 std::vector<double> fog_reference(std::span<const float> lit, std::span<const double> distance_m, std::uint32_t width,
-                                  std::uint32_t height, const Fog& fog) {
+                                  std::uint32_t height, const Fog& fog, double most_light) {
   const std::size_t pixels = std::size_t{width} * height;
   GLOAM_ASSERT(lit.size() == 4 * pixels && distance_m.size() == pixels,
                "the picture and its distances have the stated size");
@@ -76,7 +75,7 @@ std::vector<double> fog_reference(std::span<const float> lit, std::span<const do
     for (std::size_t c = 0; c < 3; ++c) {
       const double scattered =
           static_cast<double>(fog.color[static_cast<int>(c)]) + static_cast<double>(kFogForwardShare) * glow[3 * i + c];
-      fogged[4 * i + c] = transmitted * light[3 * i + c] + (1.0 - transmitted) * std::min(scattered, kMostLight);
+      fogged[4 * i + c] = transmitted * light[3 * i + c] + (1.0 - transmitted) * std::min(scattered, most_light);
     }
   }
   return fogged;

@@ -32,8 +32,10 @@ struct GlowKernel {
 
 /// The whole effect in double: the full picture blurred with a kernel cut at 6 standard deviations, then the fog of
 /// shaders/fog/apply.frag.glsl. `lit`: width · height · 4 floats before fog; `distance_m`: length of the path through
-/// the fog, one per pixel, infinite for sky. Returns the picture with fog, same layout, alpha 1.
+/// the fog, one per pixel, infinite for sky. most_light: of scattered light, as the frame's image can hold it. Returns
+/// the picture with fog, same layout, alpha 1.
 [[nodiscard]] std::vector<double> fog_reference(std::span<const float> lit, std::span<const double> distance_m,
-                                                std::uint32_t width, std::uint32_t height, const Fog& fog);
+                                                std::uint32_t width, std::uint32_t height, const Fog& fog,
+                                                double most_light = 65504.0);
 
 }  // namespace gloam

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "engine/ecs/view.h"
+#include "engine/render/light_scale.h"
 #include "engine/render/passes/renderer_passes.h"
 #include "modules/fog/components.h"
 #include "modules/fog/knobs.h"
@@ -53,12 +54,13 @@ Result<FramePictures> draw_fog_reference(const ReferenceInput& input) {
   if (!bare) return bare.error();
   const Fog fog = find_fog(input.world);
   const LinearPicture& light = bare->linear;
-  const std::vector<double> fogged =
-      fog_reference(light.rgba, distances_of(*input.geometry), light.width, light.height, fog);
+  const std::vector<double> fogged = fog_reference(light.rgba, distances_of(*input.geometry), light.width, light.height,
+                                                   fog, kMostHalf / static_cast<double>(input.view.light_scale));
   const LinearPicture exact{light.width, light.height, {fogged.begin(), fogged.end()}};
   // Drawn again: what later modules make of this light is part of the frame that the knob is judged by.
-  return input.redraw([&](World& world) { world.set_resource(FogPicture{to_light_picture(exact)}); },
-                      [](World& world) { world.remove_resource<FogPicture>(); });
+  return input.redraw(
+      [&](World& world) { world.set_resource(FogPicture{to_light_picture(exact, input.view.light_scale)}); },
+      [](World& world) { world.remove_resource<FogPicture>(); });
 }
 
 std::vector<ReferenceInfo> fog_references() {

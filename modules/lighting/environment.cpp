@@ -12,8 +12,9 @@ const ShadingInputs& shading_inputs(FrameBuilder& frame) {
   if (const ShadingInputs* there = frame.find<ShadingInputs>()) return *there;
   ShadingInputs inputs;
   const auto& sky = frame.world().resource<SceneEnvironment>();
+  const float scale = frame.view().light_scale;
   inputs.environment = frame.upload_uniform(shaders::EnvironmentConstants{
-      vec4(sky.sky_zenith, 0.0f), vec4(sky.sky_horizon, 0.0f), vec4(sky.sky_ground, 0.0f)});
+      vec4(sky.sky_zenith * scale, 0.0f), vec4(sky.sky_horizon * scale, 0.0f), vec4(sky.sky_ground * scale, 0.0f)});
   inputs.specular_ambient_taken = frame.find<SpecularAmbientTaken>() != nullptr;
   inputs.diffuse_light_wanted = frame.find<DiffuseLightWanted>() != nullptr;
   if (const LightsOutputs* lights = frame.find<LightsOutputs>()) {

@@ -40,11 +40,11 @@ struct SpecularAmbientTaken {};
 /// Another module needs DiffuseLightOutput. It puts this on the board in PassPhase::announce.
 struct DiffuseLightWanted {};
 
-/// Diffuse light intensity of the view: the illuminance, in lux, of the opaque surface at each pixel. It is the sum of
-/// every light's illuminance times the cosine of incidence and its visibility, plus π · occlusion ·
-/// hemisphere_radiance() of the surroundings. Base colour and emission do not enter, so a diffuse surface reflects
-/// base colour / π of it. rgba16f of the view's size, at most 65504; sky pixels are 0; alpha is 1. (r11f_g11f_b10f
-/// would take half of the memory, but its steps of up to 3 % show in ratios of two lights.)
+/// Diffuse light intensity of the view: the illuminance, in lux · RenderView::light_scale, of the opaque surface at
+/// each pixel. It is the sum of every light's illuminance times the cosine of incidence and its visibility, plus π ·
+/// occlusion · hemisphere_radiance() of the surroundings. Base colour and emission do not enter, so a diffuse surface
+/// reflects base colour / π of it. rgba16f of the view's size, at most 65504; sky pixels are 0; alpha is 1.
+/// (r11f_g11f_b10f would take half of the memory, but its steps of up to 3 % show in ratios of two lights.)
 ///
 /// On the board from PassPhase::shading on, only in views with DiffuseLightWanted.
 struct DiffuseLightOutput {

@@ -28,7 +28,7 @@ std::vector<DirectionalLook> directional_looks(const VisibleLights& visible) {
   std::vector<DirectionalLook> looks;
   for (std::uint32_t i = 0; i < visible.block.directional_count; ++i) {
     const shaders::DirectionalLight& light = visible.block.directional[i];
-    looks.push_back({light.direction, std::max({light.color.r, light.color.g, light.color.b})});
+    looks.push_back({light.direction, std::max({light.color.r, light.color.g, light.color.b}) / visible.light_scale});
   }
   return looks;
 }
@@ -43,13 +43,14 @@ double local_illuminance_at(const VisibleLights& visible, std::size_t light, con
   const double cone = std::clamp(
       -glm::dot(to_light, dvec3(l.direction)) * static_cast<double>(l.spot_scale) + static_cast<double>(l.spot_offset),
       0.0, 1.0);
-  return luminance(l.color) * window * cone * cone / d2 * std::max(glm::dot(dvec3(normal), to_light), 0.0);
+  return luminance(l.color / visible.light_scale) * window * cone * cone / d2 *
+         std::max(glm::dot(dvec3(normal), to_light), 0.0);
 }
 
 double directional_illuminance_at(const VisibleLights& visible, std::size_t light, const vec3& normal) {
   GLOAM_ASSERT(light < visible.block.directional_count, "no such directional light");
   const shaders::DirectionalLight& l = visible.block.directional[light];
-  return luminance(l.color) * std::max(-glm::dot(dvec3(normal), dvec3(l.direction)), 0.0);
+  return luminance(l.color / visible.light_scale) * std::max(-glm::dot(dvec3(normal), dvec3(l.direction)), 0.0);
 }
 
 void read_light_lists(ShaderPass& pass, const LightsOutputs& lights) {

@@ -219,11 +219,14 @@ void light_bounds_system(KeptLights kept, FreshLights fresh, Resource<LightSet> 
 
 void light_sort_system(Resource<const LightSet> set, ViewResource<const RenderView> view,
                        ViewResource<VisibleLights> visible, JobExecutor& jobs) {
-  const bool same_knobs = visible->built_wide_highlights == visible->wide_highlights;
+  visible->light_scale = view->light_scale;
+  const bool same_knobs =
+      visible->built_wide_highlights == visible->wide_highlights && visible->built_light_scale == visible->light_scale;
   if (visible->set_version == set->version && same_view(visible->view, *view) && same_knobs) return;
   select_lights(set->lights, set->table, *view, jobs, *visible);
   visible->set_version = set->version;
   visible->built_wide_highlights = visible->wide_highlights;
+  visible->built_light_scale = visible->light_scale;
   visible->view = *view;
   ++visible->version;
 }

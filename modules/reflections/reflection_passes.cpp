@@ -66,7 +66,7 @@ ReflectionUniforms upload_uniforms(FrameBuilder& frame, const ReflectionPlan& pl
   shaders::ReflectionConstants constants = plan.constants;
   if (const HomogeneousFog* fog = frame.find<HomogeneousFog>()) {
     constants.fog_density = fog->density;
-    constants.fog_radiance = vec4(fog->radiance, 0.0f);
+    constants.fog_radiance = vec4(fog->radiance * frame.view().light_scale, 0.0f);
     constants.fog_sky_m = fog->sky_distance_m;
   }
   const auto& tiles = frame.world().view_resource<ProxyTiles>(frame.view().id);

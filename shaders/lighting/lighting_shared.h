@@ -7,7 +7,7 @@
 
 GLOAM_SHARED_BEGIN
 
-/// Sky and ground, which light a scene besides its lights. Colours in cd/m².
+/// Sky and ground, which light a scene besides its lights. Colours in cd/m² · light_scale.
 struct EnvironmentConstants {
   vec4 zenith;
   vec4 horizon;
@@ -18,7 +18,7 @@ struct EnvironmentConstants {
 struct ToneMapConstants {
   uint curve;        // of tone_curve.glsl
   uint metered;      // 1: use the metered exposure; 0: use `exposure`
-  float exposure;    // factor for cd/m²
+  float exposure;    // factor for the view's light
   uint encode_srgb;  // 1: the target's format does not encode sRGB, so the shader does
 };
 

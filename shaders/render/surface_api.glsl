@@ -36,7 +36,7 @@ struct Surface {
   float occlusion;
   float reflectivity;   // 0…1
   float normal_spread;  // normal_spread_in_pixel
-  vec3 emissive;        // cd/m²
+  vec3 emissive;        // cd/m² · light_scale
   bool subsurface;
 };
 
@@ -69,8 +69,9 @@ float normal_spread_in_pixel(float roughness, vec3 normal, float variance) {
 }
 
 // Fetches the surface at a fragment; discards masked fragments. Its normals have any length above 0, which is enough
-// for packing. `to_viewer`: direction to the camera, any length (view_api.glsl). normal_variance: of ViewConstants.
-Surface fetch_surface_unscaled(vec3 to_viewer, float normal_variance) {
+// for packing. `to_viewer`: direction to the camera, any length (view_api.glsl). The two
+// numbers are of ViewConstants.
+Surface fetch_surface_unscaled(vec3 to_viewer, float normal_variance, float light_scale) {
   Surface s;
   s.base_color = material.base_color;
   if ((kSurface & GLOAM_SURFACE_VERTEX_COLOR) != 0u) s.base_color *= in_color;
@@ -112,7 +113,7 @@ Surface fetch_surface_unscaled(vec3 to_viewer, float normal_variance) {
   s.occlusion = 1.0;
   if ((kSurface & GLOAM_SURFACE_OCCLUSION_TEXTURE) != 0u)
     s.occlusion = 1.0 + material.factors.w * (texture(occlusion_texture, texture_uv(3)).r - 1.0);
-  s.emissive = material.emissive_cutoff.rgb;
+  s.emissive = material.emissive_cutoff.rgb * light_scale;
   if ((kSurface & GLOAM_SURFACE_EMISSIVE_TEXTURE) != 0u) s.emissive *= texture(emissive_texture, texture_uv(4)).rgb;
   s.subsurface = material.extras.x > 0.5;
   float smoothness = 1.0 - s.roughness;
@@ -124,8 +125,8 @@ Surface fetch_surface_unscaled(vec3 to_viewer, float normal_variance) {
 }
 
 // Like fetch_surface_unscaled, but with unit normals.
-Surface fetch_surface(vec3 to_viewer, float normal_variance) {
-  Surface s = fetch_surface_unscaled(to_viewer, normal_variance);
+Surface fetch_surface(vec3 to_viewer, float normal_variance, float light_scale) {
+  Surface s = fetch_surface_unscaled(to_viewer, normal_variance, light_scale);
   s.normal = normalize(s.normal);
   s.face_normal = normalize(s.face_normal);
   return s;

@@ -26,6 +26,7 @@ struct ViewConstants {
   // dot(xyz, p) + w >= 0: the visible side; p is relative to the camera. Of views that are clipped.
   vec4 clip_plane;
   float normal_variance;  // HighlightFilter
+  float light_scale;      // RenderView::light_scale
 };
 
 GLOAM_SHARED_END

@@ -44,7 +44,7 @@ void keep_linear(FrameBuilder& builder, ImageRef lit, bool wanted, ViewStore& vi
   GLOAM_ASSERT(from.format == to.format && from.width == to.width && from.height == to.height,
                "LitOutput may move only to an image of the same size and format");
   const bool moved = last.resource != lit.resource;
-  views.set_lit_is_last(builder.view().id, !moved || wanted);
+  views.set_lit(builder.view().id, !moved || wanted, builder.view().light_scale);
   if (moved && wanted) static_cast<void>(add_copy_light_pass(builder, last, builder.graph().newest(lit)));
 }
 

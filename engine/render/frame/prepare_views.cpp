@@ -4,6 +4,7 @@
 
 #include "engine/render/attempt.h"
 #include "engine/render/frame/stages.h"
+#include "engine/render/light_scale.h"
 
 namespace gloam {
 namespace {
@@ -42,6 +43,7 @@ Status prepare_views(Frame& frame, RendererParts& parts) {
         std::make_unique<RenderView>(make_view(settings, number, parts.resources.cuts.declare(id, settings, number)));
     own.view->main_view = own.main.value_or(settings.id);
     own.view->has_companions = own.has_companions;
+    if (!own.request.target.light) own.view->light_scale = light_scale(frame.world.resource<SceneEnvironment>());
     parts.resources.motion.begin_view(*own.view);
     frame.world.set_view_resource(settings.id, *own.view);
     for (const Module* module : parts.modules.demanded())

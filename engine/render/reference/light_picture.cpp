@@ -10,10 +10,11 @@
 
 namespace gloam {
 
-LightPicture to_light_picture(const LinearPicture& picture) {
+LightPicture to_light_picture(const LinearPicture& picture, float light_scale) {
   LightPicture half{picture.width, picture.height, {}};
   half.light.reserve(picture.rgba.size());
-  for (const float value : picture.rgba) half.light.push_back(float_to_half(std::min(value, 65504.0f)));
+  for (std::size_t i = 0; i < picture.rgba.size(); ++i)
+    half.light.push_back(float_to_half(std::min(picture.rgba[i] * (i % 4 == 3 ? 1.0f : light_scale), 65504.0f)));
   return half;
 }
 

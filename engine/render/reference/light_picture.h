@@ -22,8 +22,8 @@ struct LightPicture {
   [[nodiscard]] bool fits(const RenderView& view) const { return width == view.width && height == view.height; }
 };
 
-/// The picture in half floats; light above 65504 becomes 65504.
-[[nodiscard]] LightPicture to_light_picture(const LinearPicture& picture);
+/// The picture in half floats, as a view with this RenderView::light_scale stores it; light above 65504 becomes 65504.
+[[nodiscard]] LightPicture to_light_picture(const LinearPicture& picture, float light_scale);
 
 /// PassPhase::post: LitOutput becomes the picture, which must fit the view. pass: name of the pass and its image.
 void add_light_picture_pass(FrameBuilder& frame, Staging& staging, const std::string& pass,

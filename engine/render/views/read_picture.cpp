@@ -55,7 +55,7 @@ Result<LinearPicture> read_linear(const ViewStore& views, ViewId view, gpu::Devi
   for (std::size_t i = 0; i < picture.rgba.size(); ++i) {
     std::uint16_t half = 0;
     std::memcpy(&half, bytes->data() + i * sizeof(half), sizeof(half));
-    picture.rgba[i] = half_to_float(half);
+    picture.rgba[i] = half_to_float(half) / (i % 4 == 3 ? 1.0f : images->light_scale);
   }
   return picture;
 }

@@ -18,7 +18,8 @@ namespace gloam {
 struct ViewImages {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
-  gpu::ImageHandle lit;           ///< rgba16f, cd/m²
+  gpu::ImageHandle lit;           ///< rgba16f, cd/m² · light_scale
+  float light_scale = 1.0f;       ///< RenderView::light_scale of the frame that drew `lit`
   bool lit_is_last = false;       ///< `lit` holds the light after all passes of the last frame
   gpu::ImageHandle picture;       ///< rgba8 sRGB; null if the caller provides a target
   std::uint64_t world = 0;        ///< world_id of the world that drew the view last
@@ -40,8 +41,11 @@ class ViewStore {
   /// The images of a prepared view; null if there are none.
   [[nodiscard]] const ViewImages* find(ViewId view) const;
   [[nodiscard]] const ViewImages& at(ViewId view) const { return images_.at(view.value); }
-  /// Notes whether `lit` will hold the light after all passes of the frame.
-  void set_lit_is_last(ViewId view, bool is_last) { images_.at(view.value).lit_is_last = is_last; }
+  /// Notes whether `lit` will hold the light after all passes of the frame, and its scale.
+  void set_lit(ViewId view, bool is_last, float light_scale) {
+    images_.at(view.value).lit_is_last = is_last;
+    images_.at(view.value).light_scale = light_scale;
+  }
 
   /// Notes a submitted frame: its views are drawn, and its requests are the last ones.
   void commit(std::span<const ViewRequest> requests);

@@ -89,8 +89,9 @@ Result<LinearPicture> light_through_lens(const ReferenceInput& input) {
 Result<FramePictures> draw_through_lens(const ReferenceInput& input) {
   auto light = light_through_lens(input);
   if (!light) return light.error();
-  auto shown = input.redraw([&](World& world) { world.set_resource(LensPicture{to_light_picture(*light)}); },
-                            [](World& world) { world.remove_resource<LensPicture>(); });
+  auto shown = input.redraw(
+      [&](World& world) { world.set_resource(LensPicture{to_light_picture(*light, input.view.light_scale)}); },
+      [](World& world) { world.remove_resource<LensPicture>(); });
   if (!shown) return shown.error();
   return FramePictures{std::move(light).value(), std::move(shown->picture)};
 }
@@ -98,7 +99,7 @@ Result<FramePictures> draw_through_lens(const ReferenceInput& input) {
 Status put_lens_picture(World& world, const ReferenceInput& input) {
   const auto light = light_through_lens(input);
   if (!light) return light.error();
-  world.set_resource(LensPicture{to_light_picture(*light)});
+  world.set_resource(LensPicture{to_light_picture(*light, input.view.light_scale)});
   return {};
 }
 

@@ -69,7 +69,7 @@ void add_tone_map_passes(FrameBuilder& frame) {
   constants.curve = tone_curve_of(frame);
   constants.encode_srgb = gpu::encodes_srgb(target.format) ? 0 : 1;
   if (environment.has_exposure) {
-    constants.exposure = exposure_from_ev100(environment.exposure_ev100);
+    constants.exposure = exposure_from_ev100(environment.exposure_ev100) / frame.view().light_scale;
   } else {
     constants.metered = 1;
     if (!metered->filled()) add_meter_pass(frame, metered->buffer);

@@ -34,6 +34,8 @@ struct VisibleLights {
   shaders::LightBlock block{};
   bool wide_highlights = false;        ///< input: fills emitter_radius and half_angle of the block
   bool built_wide_highlights = false;  ///< the lists were built with wide_highlights
+  float light_scale = 1.0f;            ///< input: factor of the colours in the block (RenderView::light_scale)
+  float built_light_scale = 1.0f;      ///< the lists were built with light_scale
   std::vector<Entity> local_entities;  ///< in the order of block.local
   std::vector<Entity> directional_entities;
   std::vector<LightDepth> depths;      ///< in the order of block.local: view depths of what the light may light (its

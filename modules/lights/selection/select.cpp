@@ -257,8 +257,9 @@ struct PackJob {
       const LightRecord& record = table.records[light];
       const vec3 position = view.relative(lights[light].position);
       const vec3 direction = lights[light].direction;
-      visible.block.local[i] = {position,     record.inverse_range_squared, record.color, record.ramp.x, direction,
-                                record.ramp.y};
+      visible.block.local[i] = {
+          position,     record.inverse_range_squared, record.color * visible.light_scale, record.ramp.x, direction,
+          record.ramp.y};
       visible.block.emitter_radius[i / 4][static_cast<int>(i % 4)] =
           visible.wide_highlights ? record.emitter_radius_m : 0.0f;
       visible.mask_lights[i] = {{vec3(from.x[light], from.y[light], from.z[light]), table.radius[light]},
@@ -279,8 +280,8 @@ void pack_directional(std::span<const PlacedLight> lights, const LightTable& tab
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     const PlacedLight& placed = lights[chosen[i]];
     const float half_angle = visible.wide_highlights ? table.records[chosen[i]].emitter_radius_m : 0.0f;
-    visible.block.directional[i] = {table.records[chosen[i]].color, placed.light.apparent_angle, placed.direction,
-                                    half_angle};
+    visible.block.directional[i] = {table.records[chosen[i]].color * visible.light_scale, placed.light.apparent_angle,
+                                    placed.direction, half_angle};
     visible.directional_entities.push_back(placed.entity);
   }
 }

@@ -82,6 +82,7 @@ shaders::ParticleEmitterRow emitter_row(const PlacedEmitter& emitter, const Visi
   row.speed = emitter.values.speed;
   set_directions(emitter, row);
   set_kind(kind_of(emitter.values), row);
+  row.emission *= view.light_scale;
   row.seed = seed_of(emitter.entity);
   row.oldest = static_cast<std::uint32_t>(visible.live.oldest);
   row.count = visible.live.count;

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "modules/reflections/passes/temporal_accumulation.h"
 
+#include <bit>
+#include <cstdint>
+
 #include "engine/render/view_constants.h"
 #include "shaders/reflections/shaders.h"
 
@@ -23,8 +26,9 @@ MirroredLight add_temporal_pass(FrameBuilder& frame, const ReflectionUniforms& u
   desc.width = uniforms.constants.size.x;
   desc.height = uniforms.constants.size.y;
   desc.usage = gpu::ImageUsage::sampled | gpu::ImageUsage::storage;
+  const auto scale = std::bit_cast<std::uint32_t>(frame.view().light_scale);  // of the light in the images
   const auto kept = frame.history_image_pair(
-      desc, {.final_access = gpu::Access::compute_read, .reset = {.camera_cut = true, .most_missed = 0}});
+      desc, {.final_access = gpu::Access::compute_read, .reset = {.camera_cut = true, .most_missed = 0, .key = scale}});
   if (!frame.check(kept)) return light;
   const bool known = kept->valid() && frame.view().has_previous;
   ComputePass pass(frame, "reflection_temporal", temporal_program());

@@ -123,7 +123,7 @@ std::vector<shaders::ChangedLight> changed_lights(const World& world, const Rend
     shaders::ChangedLight row{};
     row.position = view.relative(dvec3(transform->matrix[3]));
     row.inverse_range_squared = 1.0f / (range * range);
-    row.missing = missing;
+    row.missing = missing * view.light_scale;
     row.direction = light_direction(dvec3(transform->matrix[2]));
     row.spot_scale = ramp.x;
     row.spot_offset = ramp.y;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/core/assert.h"
+#include "engine/render/light_scale.h"
 #include "engine/scene/resources.h"
 #include "modules/reflections/reference/pixel_surface.h"
 #include "modules/reflections/reference/reflection_tracing.h"
@@ -25,7 +26,8 @@ LinearPicture with_added_light(const LinearPicture& picture, const GeometryPictu
       const dvec3 light = added(surface, pixel);
       for (int c = 0; c < 3; ++c) {
         const double sum = static_cast<double>(picture.rgba[4 * pixel + static_cast<std::size_t>(c)]) + light[c];
-        result.rgba[4 * pixel + static_cast<std::size_t>(c)] = static_cast<float>(std::clamp(sum, 0.0, 65504.0));
+        result.rgba[4 * pixel + static_cast<std::size_t>(c)] =
+            static_cast<float>(std::clamp(sum, 0.0, kMostHalf / geometry.view.light_scale));
       }
     }
   return result;

@@ -11,6 +11,7 @@
 #include "engine/core/assert.h"
 #include "engine/core/hash.h"
 #include "engine/math/finite.h"
+#include "engine/render/light_scale.h"
 #include "engine/scene/assets.h"
 #include "engine/scene/resources.h"
 #include "modules/reflections/reference/lobe.h"
@@ -23,8 +24,7 @@ namespace {
 
 /// Offset of ray starts as a share of the point's and the camera's coordinates: as in traced visibility.
 constexpr double kRayStartShare = 4e-5;
-constexpr double kBehindSurface = 2e-4;    // sine of an angle below a surface, from which on it hides a light
-constexpr double kMostRadiance = 65504.0;  // of frames, whose light is in half floats
+constexpr double kBehindSurface = 2e-4;  // sine of an angle below a surface, from which on it hides a light
 
 /// Positions are relative to the tracer's origin.
 dvec3 ray_start(const dvec3& position, const dvec3& face_normal, const dvec3& camera) {
@@ -176,7 +176,7 @@ class PixelTracer {
   /// Radiance at the start of a ray, through quads and fog.
   [[nodiscard]] dvec3 seen_by(std::size_t i) {
     const TracedSurface& s = surfaces_[i];
-    dvec3 radiance = glm::min(radiance_[i], dvec3(kMostRadiance));
+    dvec3 radiance = glm::min(radiance_[i], dvec3(kMostHalf / input_.geometry.view.light_scale));
     if (!is_finite(radiance)) radiance = dvec3(0.0);
     const double distance = s.hit ? static_cast<double>(s.distance_m) : settings_.fog.sky_distance_m;
     radiance = in_fog(radiance, 1.0, distance);

@@ -19,7 +19,7 @@ layout(location = 0) out vec4 out_light;
 
 void main() {
   vec3 to_eye = normalize(to_viewer(view, in_relative));
-  Surface s = fetch_surface(to_eye, view.normal_variance);
+  Surface s = fetch_surface(to_eye, view.normal_variance, view.light_scale);
   ShadingPoint p = shading_point(in_relative, to_eye, s.normal, s.base_color.rgb, s.metallic, s.roughness);
   p.normal_spread = s.normal_spread;
   set_receiver(in_relative, s.face_normal, s.subsurface);

@@ -64,7 +64,7 @@ vec3 far_radiance(ShadingPoint p, GBufferTexel g, vec3 around, ivec2 pixel) {
   float ratio = 1.0;
   if (reflection.changed_lights != 0u)
     ratio = diffuse_light_ratio(texelFetch(diffuse_light, pixel, 0).rgb, p.position, g.normal);
-  return light * ratio + around * (1.0 - covered);
+  return light * (ratio * view.light_scale) + around * (1.0 - covered);
 }
 
 void main() {
@@ -80,7 +80,7 @@ void main() {
     vec3 far = far_radiance(p, g, around, pixel);
     reflected_light = fogged(far);
     if (kTraced != 0u) {
-      reflected_light = texelFetch(traced_image, pixel, 0).rgb;
+      reflected_light = texelFetch(traced_image, pixel, 0).rgb * view.light_scale;
     } else if (kMirror != 0u) {
       vec4 mirrored = texelFetch(upscaled_image, pixel, 0);
       reflected_light = reflected_light * (1.0 - mirrored.a) + mirrored.rgb;

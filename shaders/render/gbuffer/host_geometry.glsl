@@ -122,7 +122,8 @@ void main() {
   float roughness = channel_of(material, 0u, 1.0), metallic = channel_of(material, 4u, 0.0);
   // As surfaces without a stated reflectivity (surface_api.glsl).
   out_material = vec4(roughness, metallic, channel_of(material, 8u, 1.0), (1.0 - roughness) * mix(0.5, 1.0, metallic));
-  out_emissive = vec4(host.emissive != 0u ? max(texelFetch(emissive_image, pixel, 0).rgb, vec3(0.0)) : vec3(0.0), 0.0);
+  vec3 emissive = host.emissive != 0u ? texelFetch(emissive_image, pixel, 0).rgb * view.light_scale : vec3(0.0);
+  out_emissive = vec4(clamp(emissive, vec3(0.0), vec3(65504.0)), 0.0);
 #ifdef GLOAM_MOTION
   out_motion = screen_motion(motion, (view.clip_from_relative * vec4(position, 1.0)).xyw,
                              previous_clip_at_rest(motion, position));

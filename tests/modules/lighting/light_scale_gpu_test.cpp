@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <vector>
+
+#include "engine/render/light_scale.h"
+#include "modules/depth_of_field/components.h"
+#include "modules/fog/components.h"
+#include "tests/modules/lighting/lit_scene.h"
+
+namespace gloam {
+namespace {
+
+/// Scenes whose light and exposure change together: all pictures are one picture.
+struct LightScale : test::LitSceneTest {
+  static constexpr int kFirstEv = -10, kLastEv = 20;
+
+  static float factor(int ev) { return std::exp2(static_cast<float>(ev)); }
+
+  /// The picture of the scene at an exposure value. make: fills a world whose light is multiplied by `factor(ev)`.
+  template <class Make>
+  Picture picture_at(int ev, const Make& make) {
+    World fresh;
+    renderer->prepare_world(fresh);
+    auto& sky = fresh.resource<SceneEnvironment>();
+    sky.has_sky = sky.has_exposure = true;
+    sky.exposure_ev100 = static_cast<float>(ev);
+    test::SceneMaker maker(fresh);
+    make(fresh, maker, factor(ev));
+    draw(fresh, settings);
+    Picture picture = test::value_of(renderer->read_picture(settings.id));
+    light_of_last_ = linear();
+    renderer->release_world(fresh);
+    return picture;
+  }
+  static int greatest_difference(const Picture& a, const Picture& b) {
+    int greatest = 0;
+    for (std::size_t i = 0; i < a.rgba.size(); ++i) greatest = std::max(greatest, std::abs(int{a.rgba[i]} - b.rgba[i]));
+    return greatest;
+  }
+  template <class Make>
+  void expect_one_picture(const Make& make) {
+    const Picture expected = picture_at(3, make);
+    const LinearPicture light = light_of_last_;
+    for (int ev = kFirstEv; ev <= kLastEv; ++ev) {
+      SCOPED_TRACE(ev);
+      EXPECT_LE(greatest_difference(picture_at(ev, make), expected), 1);
+      for (std::size_t i = 0; i < light.rgba.size(); ++i) {
+        const float wanted = light.rgba[i] * (i % 4 == 3 ? 1.0f : factor(ev - 3));
+        ASSERT_NEAR(light_of_last_.rgba[i], wanted, 2e-3f * wanted) << i;
+      }
+    }
+  }
+
+  static Entity sun(World& lit, float lux) {
+    Light what;
+    what.kind = LightKind::directional;
+    what.intensity = lux;
+    dmat4 matrix(1.0);
+    matrix[2] = dvec4(glm::normalize(dvec3(0.3, 0.8, 0.6)), 0.0);
+    matrix[0] = dvec4(glm::normalize(glm::cross(dvec3(0.0, 1.0, 0.0), dvec3(matrix[2]))), 0.0);
+    matrix[1] = dvec4(glm::cross(dvec3(matrix[2]), dvec3(matrix[0])), 0.0);
+    return lit.create(what, WorldTransform{matrix});
+  }
+
+  LinearPicture light_of_last_;
+};
+
+TEST_F(LightScale, of_a_grey_card_under_a_sun_follows_the_exposure) {
+  expect_one_picture([](World& lit, test::SceneMaker& maker, float factor) {
+    maker.draw(maker.mesh(test::quad(0.6f, maker.material(exact_material(141, 141, 141, 255, 0)))));
+    lit.resource<SceneEnvironment>().sky_horizon = vec3(0.3f, 0.4f, 0.5f) * factor;
+    sun(lit, 4.0f * factor);
+  });
+}
+
+TEST_F(LightScale, of_emission_lamps_metal_fog_and_lens_follows_the_exposure) {
+  expect_one_picture([this](World& lit, test::SceneMaker& maker, float factor) {
+    auto& sky = lit.resource<SceneEnvironment>();
+    sky.sky_zenith = vec3(0.05f, 0.1f, 0.3f) * factor;
+    sky.sky_horizon = vec3(0.2f, 0.15f, 0.1f) * factor;
+    Material glow = exact_material(0, 0, 0, 255, 0);
+    glow.emissive = vec3(60.0f, 9.0f, 0.4f) * factor;
+    maker.draw(maker.mesh(test::quad(50.0f, maker.material(exact_material(120, 140, 160, 40, 255)))));
+    maker.draw(maker.mesh(test::quad(0.2f, maker.material(glow))), glm::translate(dmat4(1.0), dvec3(0.4, 0.3, 0.9)));
+    Light lamp;
+    lamp.intensity = 3.0f * factor;
+    lamp.width_m = 0.2f;
+    lit.create(lamp, WorldTransform{glm::translate(dmat4(1.0), dvec3(-0.5, 0.6, 1.1))});
+    lit.create(Fog{.density = 0.05f, .color = vec3(0.1f, 0.2f, 0.3f) * factor});
+    Camera lens;
+    lens.fov_y = settings.camera.fov_y;
+    settings.camera_entity =
+        lit.create(lens, WorldTransform{settings.world_from_camera}, DepthOfField{.focus_m = 1.5f, .f_number = 0.5f});
+  });
+}
+
+TEST_F(LightScale, of_bright_light_is_white_and_not_grey) {
+  // A sun of 130,000 lux at EV 15, and more: white is shown as white, and the brightest light is finite.
+  for (const int ev : {15, 20, 30}) {
+    SCOPED_TRACE(ev);
+    const Picture picture = picture_at(ev, [](World& lit, test::SceneMaker& maker, float factor) {
+      Material glow = exact_material(0, 0, 0, 255, 0);
+      glow.emissive = vec3(1e9f * std::max(factor / 32768.0f, 1.0f));
+      maker.draw(maker.mesh(test::quad(50.0f, maker.material(glow))));
+      sun(lit, 4.0f * factor);
+    });
+    for (std::size_t i = 0; i < picture.rgba.size(); ++i) ASSERT_GE(int{picture.rgba[i]}, 254) << i;
+    for (const float value : light_of_last_.rgba) ASSERT_TRUE(std::isfinite(value));
+  }
+}
+
+TEST_F(LightScale, is_one_at_ordinary_exposures_and_a_power_of_two_at_all) {
+  SceneEnvironment sky;
+  EXPECT_EQ(light_scale(sky), 1.0f);
+  sky.has_exposure = true;
+  for (float ev = -100.0f; ev <= 100.0f; ev += 0.37f) {
+    sky.exposure_ev100 = ev;
+    const float scale = light_scale(sky);
+    int exponent = 0;
+    EXPECT_EQ(std::frexp(scale, &exponent), 0.5f) << ev;
+    if (ev >= -2.0f && ev <= 7.5f) {
+      EXPECT_EQ(scale, 1.0f) << ev;
+    }
+    const double white = 1.2 * std::exp2(static_cast<double>(ev)) * static_cast<double>(scale);
+    EXPECT_GE(white, 0.25) << ev;
+    EXPECT_LE(white, 256.0) << ev;
+  }
+}
+
+}  // namespace
+}  // namespace gloam
