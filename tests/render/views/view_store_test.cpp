@@ -101,7 +101,7 @@ TEST_F(ViewStoreTest, pictures_of_views_that_were_not_drawn_cannot_be_read) {
   ASSERT_FALSE(picture.ok());
   EXPECT_THAT(picture.error().message, HasSubstr("its frames were given up"));
   views_.commit(std::vector{request(3)});
-  views_.set_lit_is_last(ViewId{3}, false);
+  views_.set_lit(ViewId{3}, false, 1.0f);
   EXPECT_ASSERT((void)read_linear(views_, ViewId{3}, *device_), "needs a frame drawn with ViewRequest::keep_linear");
 }
 
