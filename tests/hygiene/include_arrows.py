@@ -64,7 +64,7 @@ ROOMS = {
     "engine/render": (("knobs", "packing", "uploads", "scene", "draws", "declare", "sort", "passes", "readback", "reference",
                        "worlds", "modules_in_use", "views", "report", "frame", "redraw"),
                       ("view", "view_constants", "outputs", "pipelines", "pipeline_list", "frame_builder", "host_geometry", "module", "view_request", "frame_report",
-                       "renderer_options", "frame_resources", "renderer_parts", "board", "camera_cuts", "attempt", "placeless", "seen_surfaces")),
+                       "renderer_options", "frame_resources", "renderer_parts", "board", "camera_cuts", "attempt", "placeless", "seen_surfaces", "light_scale")),
     "sandbox/output": (("pictures",), ("file_io", "json_text")),
     "sandbox/scenes": (("construction", "lamps", "meadow", "wet_street"), ()),
     "sandbox/session": (("loading", "baking", "drawing", "results"), ("program_knobs", "session")),
