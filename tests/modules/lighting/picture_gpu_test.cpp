@@ -117,7 +117,8 @@ TEST_F(PictureOfLight, is_white_or_black_at_the_ends_of_the_exposures) {
         ASSERT_NO_FATAL_FAILURE(draw());
         const Picture shown = picture();
         for (std::size_t i = 0; i < shown.rgba.size(); ++i)
-          ASSERT_EQ(shown.rgba[i], i % 4 == 3 ? 255 : byte) << name << " " << ev << ", dither " << dither;
+          // Half floats end at 2 · 10⁵ times white, which reinhard maps to 254.999: dithering keeps that mean.
+          ASSERT_NEAR(shown.rgba[i], i % 4 == 3 ? 255 : byte, byte / 255) << name << " " << ev << ", dither " << dither;
       }
     }
 }
