@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "modules/reflections/culling/rooms.h"
@@ -61,6 +62,39 @@ class ProxyMeeting : public KernelTest {
     const ProxyWorld world(scene);
     return meet(world.rows(view_from(dvec3(0.0), 0.0, 0.0), true), rays);
   }
+  struct Agreement {
+    std::size_t met = 0;
+    std::size_t met_below_1e_4 = 0;  ///< with a smaller sine of the angle to the proxy
+    std::size_t undecided = 0;       ///< rounding may decide
+  };
+  /// Expects what double precision says, within the error that rounding causes.
+  [[nodiscard]] Agreement expect_as_in_double(const std::vector<MeetCase>& cases) {
+    const std::vector<KernelHit> hits = meet(cases);
+    Agreement all;
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < cases.size() && wrong < 3; ++i) {
+      const MeetCase& c = cases[i];
+      const dvec3 origin{vec3(c.origin)}, direction = glm::normalize(dvec3(vec3(glm::normalize(c.direction))));
+      const RayMeeting expected = meet_in_double(c.proxy, origin, direction);
+      const double sine = -glm::dot(dvec3(c.proxy.world_from_node[2]), direction);
+      const std::string what = "ray " + std::to_string(i) + " with the sine " + std::to_string(sine);
+      all.undecided += expected.decided ? 0 : 1;
+      if (!expected.decided) continue;
+      EXPECT_EQ(hits[i].met != 0, expected.met) << what;
+      wrong += (hits[i].met != 0) != expected.met ? 1 : 0;
+      if (!expected.met) continue;
+      ++all.met;
+      all.met_below_1e_4 += sine < 1e-4 ? 1 : 0;
+      const double uv_slack = expected.uv_slack(c.proxy.proxy) + 1e-6;
+      const dvec2 uv_off = glm::abs(dvec2(hits[i].uv) - expected.uv);
+      const bool same = std::abs(static_cast<double>(hits[i].distance_m) - expected.distance_m) <= expected.slack_m &&
+                        uv_off.x <= uv_slack && uv_off.y <= uv_slack;
+      EXPECT_TRUE(same) << what << ": " << hits[i].distance_m << " m in place of " << expected.distance_m << " ± "
+                        << expected.slack_m << ", uv off by " << uv_off.x << ", " << uv_off.y << ", slack " << uv_slack;
+      wrong += same ? 0 : 1;
+    }
+    return all;
+  }
   [[nodiscard]] static SceneProxy facing(const dvec3& center, const dvec3& toward, vec2 size) {
     ProxyScene scene;
     return scene.add(center, toward, size);
@@ -77,21 +111,31 @@ TEST_F(ProxyMeeting, agrees_with_intersections_in_double) {
     c.direction = aim - c.origin;
     cases.push_back(c);
   }
-  const std::vector<KernelHit> hits = meet(cases);
-  std::size_t met = 0;
-  for (std::size_t i = 0; i < cases.size(); ++i) {
-    const MeetCase& c = cases[i];
-    const dvec3 direction = glm::normalize(dvec3(vec3(glm::normalize(c.direction))));
-    const RayMeeting expected = meet_in_double(c.proxy, c.origin, direction);
-    if (expected.near_edge || expected.grazing) continue;
-    ASSERT_EQ(hits[i].met != 0, expected.met) << i;
-    if (!expected.met) continue;
-    ++met;
-    ASSERT_NEAR(static_cast<double>(hits[i].distance_m), expected.distance_m, 1e-4 * expected.distance_m + 1e-4) << i;
-    ASSERT_NEAR(static_cast<double>(hits[i].uv.x), expected.uv.x, 2e-3) << i;
-    ASSERT_NEAR(static_cast<double>(hits[i].uv.y), expected.uv.y, 2e-3) << i;
+  const Agreement all = expect_as_in_double(cases);
+  EXPECT_GT(all.met, 1500u);
+  EXPECT_LT(all.undecided, cases.size() / 100);
+}
+
+// Rays at 0.0003 to 0.6 degrees to the proxy, from both sides.
+TEST_F(ProxyMeeting, agrees_with_intersections_in_double_at_grazing_incidence) {
+  ProxyRandom random(26);
+  std::vector<MeetCase> cases;
+  for (int i = 0; i < 8192; ++i) {
+    const vec2 size(static_cast<float>(random.length(-0.5, 1.5)), static_cast<float>(random.length(-0.5, 1.5)));
+    MeetCase c{facing(random.inside(dvec3(2.0)), random.direction(), size)};
+    const dvec3 aim = c.proxy.point(random.between(-0.8, 0.8), random.between(-0.8, 0.8));
+    const dmat4& node = c.proxy.world_from_node;
+    const double turn = random.between(0.0, 6.2831853), sine = random.length(-5.3, -2.0) * (i % 4 == 0 ? -1.0 : 1.0);
+    const dvec3 along = std::cos(turn) * dvec3(node[0]) + std::sin(turn) * dvec3(node[1]);
+    const dvec3 toward = glm::normalize(along - sine * dvec3(node[2]));
+    c.origin = aim - random.length(-0.5, 1.0) * toward;
+    c.direction = toward;
+    cases.push_back(c);
   }
-  EXPECT_GT(met, 1500u);
+  const Agreement all = expect_as_in_double(cases);
+  EXPECT_GT(all.met, 1500u);
+  EXPECT_GT(all.met_below_1e_4, 200u);
+  EXPECT_LT(all.undecided, cases.size() / 2);
 }
 
 TEST_F(ProxyMeeting, a_sphere_test_never_rejects_a_hit) {
