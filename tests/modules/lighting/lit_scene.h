@@ -18,6 +18,7 @@
 #include "tests/modules/lighting/shading_oracle.h"
 #include "tests/support/gpu_device.h"
 #include "tests/support/render_scene.h"
+#include "tests/support/worse.h"
 
 namespace gloam::test {
 
@@ -124,11 +125,12 @@ class LitSceneTest : public ::testing::Test {
     const float* at = &p.rgba[(std::size_t{y} * p.width + x) * 4];
     return {at[0], at[1], at[2]};
   }
-  /// Relative difference of the worst channel. Values below a thousandth of the brightest channel count as that much.
+  /// Relative difference of the worst channel; infinite where there is a NaN. Values below a thousandth of the
+  /// brightest channel count as that much.
   [[nodiscard]] static double relative_error(const dvec3& actual, const dvec3& expected, double brightest) {
     double worst = 0.0;
     for (int c = 0; c < 3; ++c)
-      worst = std::max(worst, std::abs(actual[c] - expected[c]) / std::max(expected[c], 1e-3 * brightest));
+      worst = worse(worst, std::abs(actual[c] - expected[c]) / std::max(expected[c], 1e-3 * brightest));
     return worst;
   }
 

@@ -13,6 +13,7 @@
 #include "modules/accuracy/module.h"
 #include "modules/reflections/override.h"
 #include "modules/reflections/reference/reflection_tracing.h"
+#include "tests/modules/reflections/support/grazing_view.h"
 #include "tests/modules/reflections/support/reflection_frames.h"
 
 namespace gloam::test {
@@ -80,27 +81,41 @@ TEST_F(ReflectionFrames, screen_space_shows_what_traced_rays_meet) {
     for (const char* resolution : {"full", "half"}) {
       set("ssr.march", march);
       set("ssr.resolution", resolution);
-      const std::vector<vec4> confidence = shown("reflection_confidence");
-      const LinearPicture drawn = shot();
-      const GeometryPicture seen = geometry();
-      const auto tracer = value_of(make_scene_tracer(world, *executor, seen.view.position));
-      world.set_resource(trace_radiance(
-          {.world = world, .geometry = seen, .tracer = *tracer, .executor = *executor, .settings = {.rays = 1}}));
-      const LinearPicture traced = shot();
-      world.remove_resource<TracedReflections>();
-      std::size_t confident = 0, different = 0;
-      for (std::uint32_t y = 0; y < settings.height; ++y)
-        for (std::uint32_t x = 0; x < settings.width; ++x) {
-          if (confidence[std::size_t{y} * settings.width + x].x < 0.9f) continue;
-          ++confident;
-          different += relative_error(pixel(drawn, x, y), pixel(traced, x, y), 2.0) > 0.03 ? 1 : 0;
-        }
-      EXPECT_GT(confident, 250u) << march << ", " << resolution;
+      const Agreement found = compare_with_traced();
+      EXPECT_GT(found.confident, 250u) << march << ", " << resolution;
       // The edges of boxes fall into one pixel or its neighbour; a block of a half-size image has one ray. A shift by
       // half a pixel would make 0.22 different.
       const double most = std::string(resolution) == "full" ? 0.05 : 0.18;
-      EXPECT_LT(static_cast<double>(different), most * static_cast<double>(confident)) << march << ", " << resolution;
+      EXPECT_LT(static_cast<double>(found.different), most * static_cast<double>(found.confident))
+          << march << ", " << resolution;
     }
+}
+
+TEST_F(ReflectionFrames, screen_space_shows_what_traced_rays_meet_where_the_camera_grazes_the_mirror) {
+  environment() = {.sky_zenith = {0.2f, 0.4f, 1.0f}, .sky_horizon = {0.7f, 0.6f, 0.5f}, .sky_ground = vec3(0.3f)};
+  mirror_floor();
+  set("reflections.tiers", "ssr+cube");
+  set("reflections.blur", "off");
+  set("ssr.resolution", "full");
+  for (const double degrees : {0.1, 0.3, 1.0, 3.0}) {
+    const GrazingView grazing(degrees);
+    std::vector<Entity> pile;
+    for (int band = 0; band < GrazingView::kBands; ++band)
+      pile.push_back(scene.draw(scene.mesh(box(vec3(1.0f), shining(GrazingView::light(band)))), grazing.box(band)));
+    settings = grazing.camera();
+    for (const char* march : {"hierarchical", "constant"}) {
+      set("ssr.march", march);
+      const Agreement found = compare_with_traced();
+      EXPECT_GT(found.confident, 250u) << march << ", " << degrees;
+      // Edges fall into one pixel or its neighbour. Traced rays begin above the floor by 4e-5 of their distance, which
+      // moves the three upper edges of boxes in half of the picture's columns.
+      const double moved =
+          3.0 * 0.5 * grazing.picture_share(4e-5 * GrazingView::kAway) * settings.width * settings.height;
+      EXPECT_LT(static_cast<double>(found.different), 0.05 * static_cast<double>(found.confident) + moved)
+          << march << ", " << degrees;
+    }
+    for (const Entity entity : pile) world.destroy(entity);
+  }
 }
 
 TEST_F(ReflectionFrames, a_contact_is_sharp) {

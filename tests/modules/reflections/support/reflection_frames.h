@@ -12,9 +12,12 @@
 #include "engine/ecs/view.h"
 #include "engine/math/packing.h"
 #include "engine/render/readback/geometry_picture.h"
+#include "modules/accuracy/module.h"
 #include "modules/reflections/captures.h"
 #include "modules/reflections/components.h"
+#include "modules/reflections/reference/reflection_tracing.h"
 #include "tests/modules/lighting/guest_module.h"
+#include "tests/support/worse.h"
 
 namespace gloam::test {
 
@@ -117,12 +120,35 @@ class ReflectionFrames : public GuestSceneTest {
     settings.visualizer = "none";
     return found;
   }
+  struct Agreement {
+    std::size_t confident = 0;  ///< pixels
+    std::size_t different = 0;  ///< of those
+  };
+  /// Compares the frame with one of traced reflections, where the drawn ones are confident.
+  [[nodiscard]] Agreement compare_with_traced() {
+    const std::vector<vec4> confidence = shown("reflection_confidence");
+    const LinearPicture drawn = shot();
+    const GeometryPicture seen = geometry();
+    const auto tracer = value_of(make_scene_tracer(world, *executor, seen.view.position));
+    world.set_resource(trace_radiance(
+        {.world = world, .geometry = seen, .tracer = *tracer, .executor = *executor, .settings = {.rays = 1}}));
+    const LinearPicture traced = shot();
+    world.remove_resource<TracedReflections>();
+    Agreement found;
+    for (std::uint32_t y = 0; y < settings.height; ++y)
+      for (std::uint32_t x = 0; x < settings.width; ++x) {
+        if (confidence[std::size_t{y} * settings.width + x].x < 0.9f) continue;
+        ++found.confident;
+        found.different += relative_error(pixel(drawn, x, y), pixel(traced, x, y), 2.0) > 0.03 ? 1 : 0;
+      }
+    return found;
+  }
   [[nodiscard]] static double worst_difference(const LinearPicture& a, const LinearPicture& b) {
     EXPECT_EQ(a.rgba.size(), b.rgba.size());
     double worst = 0.0;
     for (std::size_t i = 0; i < std::min(a.rgba.size(), b.rgba.size()); ++i) {
       const double difference = std::abs(static_cast<double>(a.rgba[i]) - static_cast<double>(b.rgba[i]));
-      worst = difference <= worst ? worst : difference;  // a NaN counts
+      worst = worse(worst, difference);
     }
     return worst;
   }
