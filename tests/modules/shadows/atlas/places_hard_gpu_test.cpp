@@ -146,6 +146,32 @@ TEST_F(ShadowPlaces, mirrored_sheared_and_flattened_casters_and_degenerate_trian
   expect_finite("odd casters");
 }
 
+// Surfaces in one plane: rasterised, their depths are equal but for rounding.
+TEST_F(ShadowPlaces, plates_in_the_plane_of_the_floor_cast_nothing_onto_it) {
+  floor();
+  Material leaf = exact_material(170, 180, 160, 255, 0);
+  leaf.double_sided = true;
+  const std::uint32_t sheet = scene.material(leaf);
+  thing(test::quad(0.7f, sheet), glm::rotate(at(0.4, 0.0, 0.2), 0.5, dvec3(0.0, 1.0, 0.0)) * flat(0.0));
+  thing(test::quad(0.6f, stone), glm::rotate(at(-0.7, 0.0, 0.1), 0.3, dvec3(0.0, 1.0, 0.0)) * flat(0.0));
+  box(dvec3(0.0, -0.2, -0.8), dvec3(0.4, 0.2, 0.3), 0.4);  // let into the floor: its top is in its plane
+  const std::vector<Entity> lamps = {lamp(point(0.1f), dvec3(-1.3, 1.9, 1.1)),
+                                     lamp(spot(35.0, 0.1f), dvec3(1.9, 2.1, -0.7), dvec3(-1.9, -1.9, 0.7)),
+                                     lamp(sun(0.05f), dvec3(0.0), dvec3(0.5, -0.6, -0.4), 2048)};
+  for (const char* filter : {"hard", "pcf", "pcss", "chs"}) {
+    set("shadows.filter", filter);
+    for (const Entity lamp : lamps) {
+      std::size_t reached = 0, dark = 0;
+      for (const float seen : visibility(lamp)) {
+        reached += seen < 0.0f ? 0 : 1;
+        dark += seen < 0.0f || seen >= 0.999f ? 0 : 1;
+      }
+      EXPECT_GT(reached, 500u) << filter << ", " << name_of(lamp);
+      EXPECT_EQ(dark, 0u) << filter << ", " << name_of(lamp) << ": of " << reached;
+    }
+  }
+}
+
 TEST_F(ShadowPlaces, a_scene_at_100_km_from_the_origin_has_the_shadows_it_has_there) {
   yard();
   const std::vector<Entity> lamps = {lamp(point(0.1f), dvec3(-1.3, 1.9, 1.1)),

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "tests/modules/shadows/support/hard_shadows.h"
+#include "tests/support/worse.h"
 
 namespace gloam {
 namespace {
@@ -301,7 +302,7 @@ TEST_F(ShadowBias, a_wall_in_line_with_the_sun_is_lit_as_without_shadows) {
     const LinearPicture without = drawn();
     double worst = 0.0;
     for (std::size_t i = 0; i < with.rgba.size(); ++i)
-      worst = std::max(worst, std::abs(static_cast<double>(with.rgba[i]) - static_cast<double>(without.rgba[i])));
+      worst = test::worse(worst, std::abs(static_cast<double>(with.rgba[i]) - static_cast<double>(without.rgba[i])));
     EXPECT_LE(worst, 2e-3 * full) << tilt;
   }
 }

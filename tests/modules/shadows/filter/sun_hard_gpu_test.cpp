@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "tests/modules/shadows/support/hard_shadows.h"
+#include "tests/support/worse.h"
 
 namespace gloam {
 namespace {
@@ -26,7 +27,7 @@ class ShadowSun : public test::HardShadows {
         sum += std::abs(static_cast<double>(seen[i]) - traced.visibility[i] / 255.0);
         ++count;
       }
-      if (count >= traced.width / 2) worst = std::max(worst, sum / count);
+      if (count >= traced.width / 2) worst = test::worse(worst, sum / count);
     }
     return worst;
   }

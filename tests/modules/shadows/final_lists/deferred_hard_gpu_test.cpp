@@ -214,7 +214,7 @@ TEST_F(DeferredShadowsHard, a_scene_100_km_from_the_origin) {
     ASSERT_EQ(here.rgba.size(), there.rgba.size());
     std::size_t different = 0;
     for (std::size_t i = 0; i < here.rgba.size(); ++i)
-      different += std::abs(here.rgba[i] - there.rgba[i]) <= 0.1f * std::max(here.rgba[i], 0.01f) ? 0 : 1;
+      different += std::abs(here.rgba[i] - there.rgba[i]) <= (here.rgba[i] + 1e-3f) / 255.0f ? 0 : 1;
     EXPECT_LE(different, here.rgba.size() / 1000) << what;
   }
 }
