@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/scene/transforms.h"
+#include "tests/support/worse.h"
 
 namespace gloam::test {
 
@@ -62,7 +63,7 @@ struct Forest {
   double size = 0.0;
   for (int column = 0; column < 4; ++column) {
     for (int row = 0; row < 4; ++row) {
-      difference = std::max(difference, std::abs(a[column][row] - b[column][row]));
+      difference = worse(difference, std::abs(a[column][row] - b[column][row]));
       size = std::max({size, std::abs(a[column][row]), std::abs(b[column][row])});
     }
   }

@@ -17,6 +17,7 @@
 #include "modules/closeups/pairs/views.h"
 #include "modules/shadows/atlas/view_faces.h"
 #include "tests/modules/shadows/support/final_lists/deferred_scene.h"
+#include "tests/support/worse.h"
 
 namespace gloam::test {
 
@@ -53,8 +54,8 @@ struct SeenDifference {
     const double off = std::abs(static_cast<double>(a) - static_cast<double>(b));
     ++pixels;
     sum += off;
-    worst = std::max(worst, off);
-    more_than_half += off > 0.5 ? 1 : 0;
+    worst = worse(worst, off);
+    more_than_half += off <= 0.5 ? 0 : 1;
   }
   [[nodiscard]] double mean() const { return pixels == 0 ? 0.0 : sum / static_cast<double>(pixels); }
   [[nodiscard]] double half_share() const {

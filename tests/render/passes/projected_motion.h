@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "tests/render/draws/drawn_scene.h"
+#include "tests/support/worse.h"
 
 /// Screen motion in double precision: rays through pixels meet triangles, whose corners in the previous frame are
 /// projected with the previous camera.
@@ -144,7 +145,7 @@ inline Compared compare_motion(const MotionPicture& picture, const MovingTriangl
       const std::size_t i = std::size_t{y} * picture.width + x;
       EXPECT_EQ(picture.depth[i] == 0.0f, expected.sky) << x << "," << y;
       ++(expected.sky ? compared.sky : compared.surface);
-      compared.worst = std::max(compared.worst, glm::length(dvec2(picture.motion[i]) - expected.motion));
+      compared.worst = worse(compared.worst, glm::length(dvec2(picture.motion[i]) - expected.motion));
       const double length = glm::length(expected.motion);
       if (length < now.width + now.height) compared.longest = std::max(compared.longest, length);
     }

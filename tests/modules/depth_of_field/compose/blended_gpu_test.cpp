@@ -8,6 +8,7 @@
 
 #include "modules/fog/components.h"
 #include "tests/modules/depth_of_field/support/dof_stage.h"
+#include "tests/support/worse.h"
 
 namespace gloam::test {
 namespace {
@@ -32,7 +33,7 @@ class BlendedSurfaces : public DofStageTest {
   static double worst_difference(const LinearPicture& a, const LinearPicture& b) {
     double worst = 0.0;
     for (std::size_t i = 0; i < a.rgba.size(); ++i)
-      worst = std::max(worst, std::abs(double{a.rgba[i]} - b.rgba[i]) / std::max(1.0, double{b.rgba[i]}));
+      worst = worse(worst, std::abs(double{a.rgba[i]} - b.rgba[i]) / std::max(1.0, double{b.rgba[i]}));
     return worst;
   }
 };

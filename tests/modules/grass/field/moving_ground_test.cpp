@@ -17,6 +17,7 @@
 #include "modules/grass/simulation/colliders.h"
 #include "tests/jobs/executors.h"
 #include "tests/modules/grass/growth/lawns.h"
+#include "tests/support/worse.h"
 
 // Surfaces that move. The oracle of a blade's place is the ground's matrix in double precision.
 
@@ -70,7 +71,7 @@ double worst_distance(const GrassField& planted, const dmat4& before, const Gras
   for (std::size_t slot = 0; slot < planted.blades.size(); ++slot) {
     if (planted.blades[slot].length_m <= 0.0f) continue;
     const dvec3 expected(carry * dvec4(root_of(planted, slot), 1.0));
-    worst = std::max(worst, glm::length(root_of(now, slot) - expected));
+    worst = test::worse(worst, glm::length(root_of(now, slot) - expected));
   }
   return worst;
 }

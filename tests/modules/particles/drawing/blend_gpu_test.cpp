@@ -11,6 +11,7 @@
 
 #include "modules/particles/emitters/kinds.h"
 #include "tests/modules/particles/support/particle_stage.h"
+#include "tests/support/worse.h"
 
 namespace gloam::test {
 namespace {
@@ -89,7 +90,7 @@ TEST_F(ParticleBlend, particles_lie_over_each_other_in_the_order_of_their_depths
     for (std::size_t i = 0; i < found.size(); ++i) {
       if (i % 4 == 3) continue;
       // The target rounds to half floats after each sprite.
-      worst = std::max(worst, std::abs(static_cast<double>(found[i]) - expected[i]) / (0.1 + expected[i]));
+      worst = worse(worst, std::abs(static_cast<double>(found[i]) - expected[i]) / (0.1 + expected[i]));
       changed = std::max(changed, std::abs(expected[i] - static_cast<double>(before[i])));
     }
     EXPECT_LT(worst, 0.02) << static_cast<int>(kind);

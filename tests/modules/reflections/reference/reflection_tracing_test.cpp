@@ -10,6 +10,7 @@
 
 #include "engine/ecs/view.h"
 #include "tests/modules/reflections/reference/reflection_scene.h"
+#include "tests/support/worse.h"
 
 namespace gloam {
 namespace {
@@ -184,7 +185,7 @@ TEST(ReflectionTracing, lights_share_shadow_rays_without_bias) {
     if (!s) return;
     dvec3 sum = scene.ambient(*s);
     for (std::size_t i = 1; i < scene.lights.size(); i += 2) sum += test::oracle_light(*s, scene.lights[i]);
-    for (int c = 0; c < 3; ++c) worst = std::max(worst, std::abs(radiance[c] - sum[c]) / sum[c]);
+    for (int c = 0; c < 3; ++c) worst = test::worse(worst, std::abs(radiance[c] - sum[c]) / sum[c]);
   });
   EXPECT_LT(worst, 0.015);
 }
