@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <map>
+#include <string_view>
+
+#include "engine/ecs/world.h"
 #include "engine/scene/resources.h"
 
 namespace gloam {
@@ -14,5 +18,28 @@ inline constexpr double kMostHalf = 65504.0;
 /// it brings white to the nearer end of that range: light of 255 times white does not overflow, and the darkest step of
 /// a picture is a normal number.
 [[nodiscard]] float light_scale(const SceneEnvironment& environment);
+
+/// How bright a world is, as its components say without a picture. For factors of half floats: right to a few powers
+/// of two, and more than that for lamps.
+struct SceneBrightness {
+  double lit = 0.0;      ///< cd/m²: the sky, and white surfaces in the light of the strongest light
+  double emitted = 0.0;  ///< cd/m²: the greatest emission
+};
+
+/// Functions of modules that bring light into a world: the greatest luminance of a white surface, cd/m², that one of
+/// their lights gives. Must be cheap. A resource of the world, by the module's name.
+struct BrightnessSources {
+  std::map<std::string_view, double (*)(const World&)> lit;
+};
+
+/// Sky, BrightnessSources, and the emissive factors of all materials.
+[[nodiscard]] SceneBrightness scene_brightness(const World& world);
+
+/// light_scale() without an exposure, for automatic exposure and captures. It is 1 if surfaces and emission are below
+/// 49152 cd/m², so that a third of them may be added before light is clamped. Otherwise it brings them to 256…4096.
+/// Emission 65536 times as bright as lit surfaces (but at least 65536 cd/m²) counts as no brighter, so that these keep
+/// their precision. before: the scale of the view's last frame, or 1. It stays while light fits it, so that a
+/// flickering lamp does not restart temporal accumulation in each frame.
+[[nodiscard]] float light_scale(const SceneBrightness& brightness, float before = 1.0f);
 
 }  // namespace gloam

@@ -2,8 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "modules/fog/module.h"
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
+#include "engine/ecs/view.h"
+#include "engine/render/light_scale.h"
 #include "engine/scene/keys/table.h"
 #include "engine/scene/units.h"
 #include "modules/fog/components.h"
@@ -18,6 +22,16 @@ namespace {
 
 HomogeneousFog homogeneous(const Fog& fog) { return {fog.density, fog.color, fog.sky_distance_m}; }
 
+/// For BrightnessSources.
+double brightest_fog(const World& world) {
+  double most = 0.0;
+  world.view<const Fog>().each([&](Entity, const Fog& fog) {
+    const double brightest = static_cast<double>(glm::max(glm::max(fog.color.x, fog.color.y), fog.color.z));
+    if (std::isfinite(brightest)) most = std::max(most, brightest);
+  });
+  return most;
+}
+
 class FogModule final : public Module {
  public:
   [[nodiscard]] std::string_view name() const override { return "fog"; }
@@ -25,7 +39,10 @@ class FogModule final : public Module {
     return {"lights", "shadows", "closeups", "lighting"};
   }
 
-  void register_components(World& world) const override { world.register_component<Fog>("fog"); }
+  void register_components(World& world) const override {
+    world.register_component<Fog>("fog");
+    world.ensure_resource<BrightnessSources>().lit[name()] = &brightest_fog;
+  }
 
   void scene_keys(KeyRegistry& registry) const override {
     const auto line = [](std::string key, std::string fallback, std::string unit, std::string meaning) {

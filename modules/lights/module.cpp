@@ -2,10 +2,16 @@
 // SPDX-License-Identifier: MIT
 #include "modules/lights/module.h"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
 #include "engine/core/once_log.h"
 #include "engine/ecs/view.h"
 #include "engine/render/frame_builder.h"
+#include "engine/render/light_scale.h"
 #include "engine/render/seen_surfaces.h"
+#include "engine/scene/units.h"
 #include "modules/lights/debug/measures.h"
 #include "modules/lights/debug/oversights.h"
 #include "modules/lights/debug/pick.h"
@@ -21,6 +27,20 @@
 namespace gloam {
 namespace {
 
+/// For BrightnessSources. Lamps light surfaces that are a metre away: how far they are is not known, and is in most
+/// scenes within a few powers of two of it.
+double brightest_surface(const World& world) {
+  const double metre = 1.0 / metres_per_unit(world);
+  double most = 0.0;
+  world.view<const Light>().each([&](Entity, const Light& light) {
+    const double emitted = static_cast<double>(light.intensity) *
+                           static_cast<double>(glm::max(glm::max(light.color.x, light.color.y), light.color.z));
+    const double lux = light.kind == LightKind::directional ? emitted : emitted / (metre * metre);
+    if (std::isfinite(lux)) most = std::max(most, lux);
+  });
+  return most / std::numbers::pi;
+}
+
 class LightsModule final : public Module {
  public:
   [[nodiscard]] std::string_view name() const override { return "lights"; }
@@ -29,6 +49,7 @@ class LightsModule final : public Module {
     world.register_component<Light>("light");
     world.register_component<LightBounds>("light_bounds");
     world.ensure_resource<LightSet>();
+    world.ensure_resource<BrightnessSources>().lit[name()] = &brightest_surface;
   }
   void scene_keys(KeyRegistry& registry) const override { add_light_keys(registry); }
 

@@ -17,7 +17,7 @@ struct EnvironmentConstants {
 /// Constants of the pass from linear light to picture.
 struct ToneMapConstants {
   uint curve;        // of tone_curve.glsl
-  uint metered;      // 1: use the metered exposure; 0: use `exposure`
+  uint metered;      // 1: `exposure` multiplies the metered exposure
   float exposure;    // factor for the view's light
   uint encode_srgb;  // 1: the target's format does not encode sRGB, so the shader does
 };
@@ -30,7 +30,8 @@ struct ToneTableConstants {
 
 /// Constants for metering a view.
 struct MeterConstants {
-  uvec2 size;  // pixels of the picture
+  uvec2 size;           // pixels of the picture
+  float inverse_scale;  // 1 / light_scale
 };
 
 /// Constants for finding the edges of a picture along rows or columns (shaders/lighting/antialiasing/edge_bits.glsl).

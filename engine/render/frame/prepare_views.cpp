@@ -18,6 +18,19 @@ void hand_out_results(World& world, ViewId view, const ModuleSet& modules, const
   });
 }
 
+/// RenderView::light_scale of a view. Views of automatic exposure and captures go by the brightness of the world:
+/// captures are kept for pictures with other exposures.
+float light_scale_of(const Frame& frame, const FrameView& own, const ViewStore& views) {
+  if (own.request.target.light) return 1.0f;
+  const auto& environment = frame.world.resource<SceneEnvironment>();
+  const bool captures = own.request.settings.purpose == ViewPurpose::capture && !own.main;
+  if (environment.has_exposure && !captures) return light_scale(environment);
+  const ViewImages* last =
+      views.find(own.main.value_or(own.request.settings.id));  // companions have that of their view
+  const bool has_last = !captures && last != nullptr && last->drawn;
+  return light_scale(scene_brightness(frame.world), has_last ? last->light_scale : 1.0f);
+}
+
 }  // namespace
 
 Status run_systems(Frame& frame, std::optional<ViewId> view, RendererParts& parts) {
@@ -43,7 +56,7 @@ Status prepare_views(Frame& frame, RendererParts& parts) {
         std::make_unique<RenderView>(make_view(settings, number, parts.resources.cuts.declare(id, settings, number)));
     own.view->main_view = own.main.value_or(settings.id);
     own.view->has_companions = own.has_companions;
-    if (!own.request.target.light) own.view->light_scale = light_scale(frame.world.resource<SceneEnvironment>());
+    own.view->light_scale = light_scale_of(frame, own, parts.views);
     parts.resources.motion.begin_view(*own.view);
     frame.world.set_view_resource(settings.id, *own.view);
     for (const Module* module : parts.modules.demanded())

@@ -32,7 +32,7 @@ void add_meter_pass(FrameBuilder& frame, BufferRef& exposure) {
   ComputePass pass(frame, "meter", shaders::lighting::meter_comp);
   pass.read("lit_image", frame.get<LitOutput>().color);
   exposure = pass.write("exposure", exposure);
-  pass.push(shaders::MeterConstants{{frame.view().width, frame.view().height}});
+  pass.push(shaders::MeterConstants{{frame.view().width, frame.view().height}, 1.0f / frame.view().light_scale});
   pass.dispatch(1);
 }
 
@@ -68,8 +68,9 @@ void add_tone_map_passes(FrameBuilder& frame) {
   shaders::ToneMapConstants constants{};
   constants.curve = tone_curve_of(frame);
   constants.encode_srgb = gpu::encodes_srgb(target.format) ? 0 : 1;
+  constants.exposure = 1.0f / frame.view().light_scale;
   if (environment.has_exposure) {
-    constants.exposure = exposure_from_ev100(environment.exposure_ev100) / frame.view().light_scale;
+    constants.exposure *= exposure_from_ev100(environment.exposure_ev100);
   } else {
     constants.metered = 1;
     if (!metered->filled()) add_meter_pass(frame, metered->buffer);

@@ -52,7 +52,7 @@ LitPixels meter(const LinearPicture& lit, std::uint32_t side) {
       const double luminance = 0.2126 * static_cast<double>(light[0]) + 0.7152 * static_cast<double>(light[1]) +
                                0.0722 * static_cast<double>(light[2]);
       if (!(luminance > 0.0)) continue;
-      metered.log2_sum += std::log2(std::clamp(luminance, 1e-4, 1e6));
+      metered.log2_sum += std::log2(std::clamp(luminance, 1e-4, 1e30));
       ++metered.count;
     }
   }

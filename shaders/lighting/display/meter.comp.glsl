@@ -29,9 +29,9 @@ void add_row(uint row, uint side, inout float sum, inout uint count) {
   for (uint column = 0u; column < side; ++column) {
     uvec2 pixel = (uvec2(column, row) * 2u + 1u) * c.size / (2u * side);
     vec3 light = texelFetch(lit_image, ivec2(pixel), 0).rgb;
-    float luminance = dot(light, vec3(0.2126, 0.7152, 0.0722));
+    float luminance = dot(light, vec3(0.2126, 0.7152, 0.0722)) * c.inverse_scale;
     if (!(luminance > 0.0)) continue;
-    sum += log2(clamp(luminance, 1e-4, 1e6));  // lower limit: a dark picture must not get an unbounded exposure
+    sum += log2(clamp(luminance, 1e-4, 1e30));  // lower limit: a dark picture must not get an unbounded exposure
     ++count;
   }
 }

@@ -27,7 +27,7 @@ float looked_up(float x) {
 }
 
 void main() {
-  float exposure = c.metered != 0u ? metered_exposure : c.exposure;
+  float exposure = c.metered != 0u ? metered_exposure * c.exposure : c.exposure;
   vec3 x = clamp(texelFetch(lit_image, ivec2(gl_FragCoord.xy), 0).rgb * exposure, vec3(0.0), vec3(1e6));
   x = before_curve(c.curve, x);
   vec3 shown;
