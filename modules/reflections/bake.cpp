@@ -12,6 +12,7 @@
 #include "engine/core/assert.h"
 #include "engine/ecs/view.h"
 #include "engine/math/finite.h"
+#include "engine/render/light_scale.h"
 #include "engine/scene/components.h"
 #include "engine/scene/systems.h"
 #include "modules/lighting/components.h"
@@ -84,6 +85,7 @@ class Bake {
     sources_ = light_sources(world_);
     total_ = proxies.size() + probes.size();
     captures_.content = capture_content(world_);
+    captures_.light_scale = light_scale(scene_brightness(world_));
     for (const LightSource& source : sources_) captures_.lights.push_back({source.entity, source.emitted()});
     if (settings_.progress) settings_.progress(0, total_);
     GLOAM_TRY(add_proxies(proxies));
@@ -110,12 +112,15 @@ class Bake {
     auto chosen = proxy_lights(world_, proxy.placed, strings.text(proxy.proxy.lights), sources_);
     if (!chosen.ok()) return chosen.error();
     auto picture = proxy.proxy.texture == 0
-                       ? capture_proxy(renderer_, world_, proxy.placed, settings_.proxy_side)
+                       ? capture_proxy(renderer_, world_, proxy.placed, settings_.proxy_side, captures_.light_scale)
                        : read_proxy_texture(strings.text(proxy.proxy.texture), settings_.proxy_side);
     if (!picture.ok()) return picture.error();
-    if (proxy.proxy.texture != 0 && proxy.proxy.kind == IbrProxyKind::fire)
+    if (proxy.proxy.texture != 0 && proxy.proxy.kind == IbrProxyKind::fire) {
       scale_to_lights(*picture, 4.0 * glm::length(glm::cross(proxy.placed.half_u, proxy.placed.half_v)), sources_,
-                      *chosen);
+                      *chosen, captures_.light_scale);
+    } else if (proxy.proxy.texture != 0) {
+      for (vec4& texel : picture->texels) texel = vec4(vec3(texel) * captures_.light_scale, texel.w);
+    }
     const auto layer = static_cast<std::uint32_t>(captures_.proxy_entities.size());
     for (CapturedProxyLight& light : *chosen) {
       light.layer = layer;
@@ -133,7 +138,7 @@ class Bake {
     CapturedPicture picture{side, side, std::vector<vec4>(std::size_t{side} * side, vec4(0.0f))};
     const FlameSource* source = world_.try_resource<FlameSource>();
     if (source != nullptr && source->picture) picture.texels = source->picture(world_, flame, side);
-    for (vec4& texel : picture.texels) texel = vec4(storable(vec3(texel)), texel.w);
+    for (vec4& texel : picture.texels) texel = vec4(storable(captures_.light_scale * vec3(texel)), texel.w);
     captures_.proxy_entities.push_back(proxy);
     append_mip_chain(std::move(picture), captures_.proxies.texels);
     tell_progress();
@@ -146,7 +151,8 @@ class Bake {
     layers.mips = probe_map_mips(layers.side);
     layers.count = static_cast<std::uint32_t>(probes.size());
     for (const ProbeToBake& probe : probes) {
-      const auto faces = draw_cube_faces(renderer_, world_, probe.eye, probe_face_side(probe.probe.resolution));
+      const auto faces =
+          draw_cube_faces(renderer_, world_, probe.eye, probe_face_side(probe.probe.resolution), captures_.light_scale);
       if (!faces.ok()) return faces.error();
       append_probe_map(CapturedCube(*faces, *settings_.executor), layers.side, *settings_.executor, layers.texels);
       captures_.probe_entities.push_back(probe.entity);

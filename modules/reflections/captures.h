@@ -41,12 +41,14 @@ struct CapturedLightState {
 /// or read from a cache. Without it (`content` 0) reflections use screen space and the sky only.
 struct ReflectionCaptures {
   std::uint64_t content = 0;  ///< hash of all that the captures were made from; 0: there are none
-  /// One layer per proxy. Radiance in cd/m², premultiplied by alpha; alpha 0 where the capture met no surface. u runs
-  /// along the node's +X, v from the top (+Y) to the bottom. Mips are box-filtered.
+  /// Factor from cd/m² to the images' half floats: a power of two, light_scale() of the world's brightness.
+  float light_scale = 1.0f;
+  /// One layer per proxy. Radiance in cd/m² · light_scale, premultiplied by alpha; alpha 0 where the capture met no
+  /// surface. u runs along the node's +X, v from the top (+Y) to the bottom. Mips are box-filtered.
   CapturedLayers proxies;
   std::vector<Entity> proxy_entities;            ///< of each layer; entities with IbrProxy, by entity index
   std::vector<CapturedProxyLight> proxy_lights;  ///< by layer, then by entity index of the light
-  /// One layer per probe: octahedral maps of radiance in cd/m². Texel (u, v) in 0…1 shows direction
+  /// One layer per probe: octahedral maps of radiance in cd/m² · light_scale. Texel (u, v) in 0…1 shows direction
   /// octahedral_decode(2 (u, v) − 1) with the axes (x, z, y) of the world: the middle of the image looks up (+Y), its
   /// corners look down. Mip m is prefiltered for roughness m / (mips − 1).
   CapturedLayers probes;

@@ -125,6 +125,7 @@ void announce_reflections(FrameBuilder& frame) {
   plan.no_specular = change != nullptr && *change == ReflectionOverride::no_specular;
   if (!plan.mirror && plan.probes.empty() && !plan.no_specular && plan.traced == nullptr) return;
   plan.constants = constants_of(view, knobs, static_cast<float>(scene_unit(frame.world())));
+  plan.constants.capture_scale = view.light_scale / captures.light_scale;
   if (knobs.proxies)
     plan.proxies = proxy_rows(world, view, world.resource<ProxySet>(), world.view_resource<ProxyTiles>(view.id),
                               captures, knobs.naive);

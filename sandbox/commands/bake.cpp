@@ -29,9 +29,9 @@ std::string picture_name(const World& world, Entity entity, const char* kind, st
   return name.empty() ? std::string(kind) + "-" + std::to_string(index) : name;
 }
 
-/// Writes the mips of each layer beside each other, as linear light.
-Status write_layers(const CapturedLayers& layers, const std::vector<Entity>& entities, const World& world,
-                    const char* kind, const std::string& folder) {
+/// Writes the mips of each layer beside each other, as linear light in cd/m². light_scale: of the captures.
+Status write_layers(const CapturedLayers& layers, float light_scale, const std::vector<Entity>& entities,
+                    const World& world, const char* kind, const std::string& folder) {
   for (std::size_t layer = 0; layer < layers.count; ++layer) {
     const std::uint32_t width = 2 * layers.side;
     std::vector<float> rgba(std::size_t{4} * width * layers.side, 0.0f);
@@ -41,7 +41,8 @@ Status write_layers(const CapturedLayers& layers, const std::vector<Entity>& ent
       const std::uint16_t* from = &layers.texels[layer * layers.layer_halves() + layers.mip_offset(mip)];
       for (std::uint32_t y = 0; y < side; ++y)
         for (std::uint32_t i = 0; i < 4 * side; ++i)
-          rgba[std::size_t{4} * (std::size_t{y} * width + left) + i] = half_to_float(*from++);
+          rgba[std::size_t{4} * (std::size_t{y} * width + left) + i] =
+              half_to_float(*from++) / (i % 4 == 3 ? 1.0f : light_scale);
       left += side;
     }
     const std::string path = folder + "/" + picture_name(world, entities[layer], kind, layer) + ".exr";
@@ -87,8 +88,10 @@ Status run_bake(const CommandContext& context) {
   GLOAM_TRY(session.value()->check_validation());
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (!options.out.empty()) {
-    GLOAM_TRY(write_layers(captures->proxies, captures->proxy_entities, world, "proxy", options.out));
-    GLOAM_TRY(write_layers(captures->probes, captures->probe_entities, world, "probe", options.out));
+    GLOAM_TRY(
+        write_layers(captures->proxies, captures->light_scale, captures->proxy_entities, world, "proxy", options.out));
+    GLOAM_TRY(
+        write_layers(captures->probes, captures->light_scale, captures->probe_entities, world, "probe", options.out));
   }
   if (captures->proxies.count + captures->probes.count == 0) {
     if (!options.quiet) context.console.print("the scene has no proxy and no probe: there is nothing to capture\n");

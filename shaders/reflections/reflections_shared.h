@@ -31,6 +31,7 @@ struct ReflectionConstants {
   uint centered;        // 1: a texel shows the middle of its block; 0: the block's first candidate
   uint changed_lights;  // lights that differ from their state at capture
   float unit_m;         // scene_unit(): hit distances are stored in hundredths of it
+  float capture_scale;  // from the light of captures to that of the view
 };
 
 /// Arguments of an indirect dispatch over the listed tiles: GLOAM_TILE_ROW workgroups wide, one per tile, and as high

@@ -3,6 +3,7 @@
 #include "modules/reflections/bake.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <span>
@@ -62,7 +63,7 @@ Entity read_entity(ByteReader& bytes, const std::vector<Entity>& entities) {
 
 std::string identity_of(std::uint64_t content) {
   char text[48];
-  std::snprintf(text, sizeof(text), "reflection captures 1 %016llx", static_cast<unsigned long long>(content));
+  std::snprintf(text, sizeof(text), "reflection captures 2 %016llx", static_cast<unsigned long long>(content));
   return text;
 }
 
@@ -73,6 +74,7 @@ std::string encode_captures(const World& world, const ReflectionCaptures& captur
                             lights = entities_with<Light>(world);
   ByteWriter bytes;
   bytes.value(captures.content);
+  bytes.value(captures.light_scale);
   write_layers(bytes, captures.proxies);
   for (const Entity proxy : captures.proxy_entities) bytes.value(position_of(proxies, proxy));
   write_layers(bytes, captures.probes);
@@ -97,6 +99,8 @@ std::optional<ReflectionCaptures> decode_captures(const World& world, std::strin
   ByteReader bytes(text);
   ReflectionCaptures captures;
   captures.content = bytes.value<std::uint64_t>();
+  captures.light_scale = bytes.value<float>();
+  bytes.require(std::isnormal(captures.light_scale) && captures.light_scale > 0.0f);
   captures.proxies = read_layers(bytes);
   for (std::uint32_t i = 0; i < captures.proxies.count; ++i)
     captures.proxy_entities.push_back(read_entity(bytes, proxies));

@@ -137,7 +137,7 @@ vec3 CapturedCube::sample(const vec3& direction, float lod) const {
 }
 
 Result<std::array<CapturedPicture, 6>> draw_cube_faces(Renderer& renderer, World& world, const dvec3& eye,
-                                                       std::uint32_t side) {
+                                                       std::uint32_t side, float light_scale) {
   std::array<ViewRequest, 6> requests;
   static_assert(kBakeViews == std::tuple_size_v<decltype(requests)>);
   for (std::uint32_t face = 0; face < requests.size(); ++face) {
@@ -159,7 +159,8 @@ Result<std::array<CapturedPicture, 6>> draw_cube_faces(Renderer& renderer, World
     picture = {light->width, light->height, {}};
     picture.texels.reserve(std::size_t{picture.width} * picture.height);
     for (std::size_t i = 0; i + 4 <= light->rgba.size(); i += 4)
-      picture.texels.emplace_back(storable(vec3(light->rgba[i], light->rgba[i + 1], light->rgba[i + 2])), 1.0f);
+      picture.texels.emplace_back(storable(light_scale * vec3(light->rgba[i], light->rgba[i + 1], light->rgba[i + 2])),
+                                  1.0f);
   }
   return faces;
 }

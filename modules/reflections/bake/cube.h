@@ -52,8 +52,8 @@ class CapturedCube {
   std::vector<Level> levels_;
 };
 
-/// Draws the static scene around `eye`. side: pixels of a face's sides, a power of two.
+/// Draws the static scene around `eye`. side: pixels of a face's sides, a power of two. light_scale: of the captures.
 [[nodiscard]] Result<std::array<CapturedPicture, 6>> draw_cube_faces(Renderer& renderer, World& world, const dvec3& eye,
-                                                                     std::uint32_t side);
+                                                                     std::uint32_t side, float light_scale);
 
 }  // namespace gloam

@@ -9,7 +9,7 @@
 
 namespace gloam {
 
-/// Linear light, rows from the top. rgb: cd/m², premultiplied by alpha.
+/// Linear light, rows from the top. rgb: cd/m² · ReflectionCaptures::light_scale, premultiplied by alpha.
 struct CapturedPicture {
   std::uint32_t width = 0;
   std::uint32_t height = 0;

@@ -53,7 +53,8 @@ ViewSettings proxy_view(const PlacedProxy& proxy, std::uint32_t side, double uni
   return settings;
 }
 
-Result<CapturedPicture> capture_proxy(Renderer& renderer, World& world, const PlacedProxy& proxy, std::uint32_t side) {
+Result<CapturedPicture> capture_proxy(Renderer& renderer, World& world, const PlacedProxy& proxy, std::uint32_t side,
+                                      float light_scale) {
   // read_image() draws a view again, so depth is read from a view without light.
   std::array<ViewRequest, 2> requests;
   ViewSettings &lit = requests[0].settings, &unlit = requests[1].settings;
@@ -73,7 +74,7 @@ Result<CapturedPicture> capture_proxy(Renderer& renderer, World& world, const Pl
     std::memcpy(&pixel_depth, depth->bytes.data() + i * sizeof(float), sizeof(float));
     if (!(pixel_depth > 0.0f)) continue;
     const float* const rgba = &light->rgba[4 * i];
-    picture.texels[i] = vec4(storable(vec3(rgba[0], rgba[1], rgba[2])), 1.0f);
+    picture.texels[i] = vec4(storable(light_scale * vec3(rgba[0], rgba[1], rgba[2])), 1.0f);
   }
   if (is_upside_down(proxy)) turn_upside_down(picture);
   return resampled(picture, side);

@@ -19,8 +19,8 @@ namespace gloam {
 [[nodiscard]] ViewSettings proxy_view(const PlacedProxy& proxy, std::uint32_t side, double unit_m = 1.0);
 
 /// Draws the static scene as proxy_view() sees it and returns it with `side` texels, alpha 0 where no opaque surface
-/// was met. u runs along half_u, v against half_v.
+/// was met. u runs along half_u, v against half_v. light_scale: of the captures.
 [[nodiscard]] Result<CapturedPicture> capture_proxy(Renderer& renderer, World& world, const PlacedProxy& proxy,
-                                                    std::uint32_t side);
+                                                    std::uint32_t side, float light_scale);
 
 }  // namespace gloam

@@ -26,7 +26,7 @@ Result<CapturedPicture> read_proxy_texture(const std::string& path, std::uint32_
 }
 
 void scale_to_lights(CapturedPicture& picture, double area_m2, std::span<const LightSource> lights,
-                     std::span<const CapturedProxyLight> chosen) {
+                     std::span<const CapturedProxyLight> chosen, float light_scale) {
   double candela = 0.0;
   for (const LightSource& source : lights)
     if (source.light.kind != LightKind::directional &&
@@ -36,7 +36,7 @@ void scale_to_lights(CapturedPicture& picture, double area_m2, std::span<const L
   for (const vec4& texel : picture.texels)
     mean += luminance_of(dvec3(texel)) / static_cast<double>(picture.texels.size());
   if (!(mean > 0.0) || !(area_m2 > 0.0)) return;
-  const auto scale = static_cast<float>(candela / (area_m2 * mean));
+  const auto scale = static_cast<float>(static_cast<double>(light_scale) * candela / (area_m2 * mean));
   for (vec4& texel : picture.texels) texel = vec4(storable(vec3(texel) * scale), texel.w);
 }
 

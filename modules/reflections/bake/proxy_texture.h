@@ -17,8 +17,9 @@ namespace gloam {
 [[nodiscard]] Result<CapturedPicture> read_proxy_texture(const std::string& path, std::uint32_t side);
 
 /// Scales the picture of a fire so that the quad, seen from the front, has the luminous intensity of its lights
-/// together: mean luminance · area = candela. Directional lights do not count. Leaves a black picture as it is.
+/// together: mean luminance · area = candela · light_scale. Directional lights do not count. Leaves a black picture as
+/// it is. light_scale: of the captures.
 void scale_to_lights(CapturedPicture& picture, double area_m2, std::span<const LightSource> lights,
-                     std::span<const CapturedProxyLight> chosen);
+                     std::span<const CapturedProxyLight> chosen, float light_scale);
 
 }  // namespace gloam

@@ -64,7 +64,7 @@ vec3 far_radiance(ShadingPoint p, GBufferTexel g, vec3 around, ivec2 pixel) {
   float ratio = 1.0;
   if (reflection.changed_lights != 0u)
     ratio = diffuse_light_ratio(texelFetch(diffuse_light, pixel, 0).rgb, p.position, g.normal);
-  return light * (ratio * view.light_scale) + around * (1.0 - covered);
+  return light * (ratio * reflection.capture_scale) + around * (1.0 - covered);
 }
 
 void main() {

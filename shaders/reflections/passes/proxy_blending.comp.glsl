@@ -62,7 +62,7 @@ vec4 proxy_light(ProxyRow proxy, ProxyHit hit, MirrorSurface s, float ratio) {
   float away = view.orthographic != 0u ? 1.0 : length(s.position) + hit.distance_m;
   float lod = log2(max(length(view.ray_dx.xyz) * float(reflection.scale) * away / proxy.texel_m, 1.0));
   vec4 light = textureLod(proxy_images, vec3(hit.uv, proxy.layer), lod);
-  return vec4(light.rgb * (view.light_scale * proxy.dim * mix(1.0, ratio, proxy.scaled)),
+  return vec4(light.rgb * (reflection.capture_scale * proxy.dim * mix(1.0, ratio, proxy.scaled)),
               light.a * min(proxy.dim, 1.0));
 }
 

@@ -159,6 +159,44 @@ TEST_F(Bakes, a_probe_shows_six_walls_where_they_are) {
     }
 }
 
+TEST_F(Bakes, of_bright_light_are_those_of_ordinary_light_times_their_scale) {
+  // The same walls with 2^k times the light, at no exposure, and at those of day and night: captures are kept for all.
+  world.resource<SceneEnvironment>().sky_horizon = vec3(0.0f);
+  proxy(vec2(4.0f, 4.0f), dmat4(1.0));
+  CubeProbe probe;
+  probe.global = true;
+  probe.resolution = 16;
+  world.create(probe, WorldTransform{at(0, 0, 2)});
+  wall(kRed, at(-1, 1, -0.5));
+  wall(kBlue, at(1, 1, -0.5));
+  wall(kGreen, at(-1, -1, -0.5));
+  const std::vector<Material> materials = scene.assets().materials;
+  const ReflectionCaptures ordinary = bake();
+  EXPECT_EQ(ordinary.light_scale, 1.0f);
+  auto& environment = world.resource<SceneEnvironment>();
+  for (const int k : {4, 12, 14, 20, 40})
+    for (const float ev : {-10.0f, 5.0f, 20.0f, 100.0f}) {
+      SCOPED_TRACE(k);
+      environment.has_exposure = ev < 100.0f;
+      environment.exposure_ev100 = ev;
+      for (std::uint32_t i = 0; i < materials.size(); ++i) {
+        scene.assets().materials[i].emissive = materials[i].emissive * std::exp2(static_cast<float>(k));
+        scene.assets().mark_changed(AssetKind::material, i);
+      }
+      const ReflectionCaptures bright = bake();
+      EXPECT_EQ(bright.light_scale == 1.0f, k <= 12);
+      const float factor = std::exp2(static_cast<float>(k)) * bright.light_scale;
+      for (const auto layers : {&ReflectionCaptures::proxies, &ReflectionCaptures::probes}) {
+        const std::vector<std::uint16_t>&wanted = (ordinary.*layers).texels, &found = (bright.*layers).texels;
+        ASSERT_EQ(found.size(), wanted.size());
+        for (std::size_t i = 0; i < wanted.size(); ++i) {
+          const float expected = half_to_float(wanted[i]) * (i % 4 == 3 ? 1.0f : factor);
+          ASSERT_NEAR(half_to_float(found[i]), expected, 2e-3f * expected + 6e-8f * std::max(factor, 1.0f)) << i;
+        }
+      }
+    }
+}
+
 TEST_F(Bakes, what_is_animated_is_in_no_capture) {
   const Entity quad = proxy(vec2(4.0f, 4.0f), dmat4(1.0));
   wall(kRed, at(-1, 1, -0.5));

@@ -35,6 +35,7 @@ struct CaptureWorld : test::BakeWorld {
   [[nodiscard]] ReflectionCaptures captures() const {
     ReflectionCaptures all;
     all.content = 0x123456789abcdef0;
+    all.light_scale = 0.0625f;
     all.proxies = {4, 3, 2, {}};
     all.proxies.texels.resize(2 * all.proxies.layer_halves());
     for (std::size_t i = 0; i < all.proxies.texels.size(); ++i) all.proxies.texels[i] = static_cast<std::uint16_t>(i);
@@ -49,6 +50,7 @@ struct CaptureWorld : test::BakeWorld {
 
 void expect_equal(const ReflectionCaptures& a, const ReflectionCaptures& b) {
   EXPECT_EQ(a.content, b.content);
+  EXPECT_EQ(a.light_scale, b.light_scale);
   for (const auto layers : {&ReflectionCaptures::proxies, &ReflectionCaptures::probes}) {
     EXPECT_EQ((a.*layers).side, (b.*layers).side);
     EXPECT_EQ((a.*layers).mips, (b.*layers).mips);

@@ -45,7 +45,7 @@ TEST(ProxyTexture, of_a_fire_has_the_intensity_of_its_lights) {
   CapturedPicture picture{2, 1, {vec4(0.2f, 0.1f, 0.0f, 0.5f), vec4(0.0f)}};
   const std::vector<CapturedProxyLight> chosen = {{0, first, 0.5f}, {0, second, 0.5f}};
   const double area = 1.17;
-  scale_to_lights(picture, area, light_sources(base.world), chosen);
+  scale_to_lights(picture, area, light_sources(base.world), chosen, 1.0f);
   double candela = 0.0;
   for (const vec4& texel : picture.texels) candela += luminance_of(dvec3(texel)) * area / 2.0;
   EXPECT_NEAR(candela, 30.0 + 15.0 * 0.7152, 1e-3);
@@ -55,7 +55,7 @@ TEST(ProxyTexture, of_a_fire_has_the_intensity_of_its_lights) {
 
 TEST(ProxyTexture, of_a_black_fire_stays_black) {
   CapturedPicture picture{1, 1, {vec4(0.0f)}};
-  scale_to_lights(picture, 1.0, {}, {});
+  scale_to_lights(picture, 1.0, {}, {}, 1.0f);
   EXPECT_EQ(picture.texels[0], vec4(0.0f));
 }
 

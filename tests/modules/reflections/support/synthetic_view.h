@@ -150,6 +150,7 @@ struct BoxMeeting {
   c.pixel_roughness = 1;
   c.blur_radius = 8;
   c.light_scale = 1.0f;
+  c.capture_scale = 1.0f;
   return c;
 }
 
