@@ -24,10 +24,10 @@ inline constexpr std::uint32_t kMostMapSide = 64;
 /// Most texels of all maps of a world along z together; every device has volumes of this depth.
 inline constexpr std::uint32_t kMostMapSlices = 2048;
 
-/// One colour channel of a texel's static light: half floats of (flux.x, flux.y, flux.z, fluence), both in lux. The
-/// fluence is ∫ L dω over all directions, the flux ∫ L ω dω, where L (cd/m²) arrives from the unit direction ω of the
-/// world. A light whose illuminance is E on a plane that faces it adds (E · to_light, E); |flux| ≤ fluence. Values are
-/// finite, at most 65504.
+/// One colour channel of a texel's static light: half floats of (flux.x, flux.y, flux.z, fluence), both in lux ·
+/// ParticleLightMap::light_scale. The fluence is ∫ L dω over all directions, the flux ∫ L ω dω, where L (cd/m²) arrives
+/// from the unit direction ω of the world. A light whose illuminance is E on a plane that faces it adds (E · to_light,
+/// E); |flux| ≤ fluence. Values are finite, at most 65504.
 using BakedFlux = std::array<std::uint16_t, 4>;
 /// Visibility of the lights in `ParticleLightMap::lights`, 0…255 for 0…1.
 using BakedVisibility = std::array<std::uint8_t, kBakedLights>;
@@ -40,6 +40,9 @@ struct ParticleLightMap {
   dvec3 origin = dvec3(0.0);   ///< world position that `box` is relative to
   Aabb box;                    ///< axis-aligned in the world; not empty
   uvec3 size = uvec3(0);       ///< texels, each 1…kMostMapSide
+  /// Factor from lux to the half floats of `flux`, a power of two: the greatest, at most 1, that all of them hold, or
+  /// that leaves half of the texels above 1, so that a lamp in the cloud does not cost the others their precision.
+  float light_scale = 1.0f;
   /// Light of the static lights, of the sky and of the ground, with their shadows; red, green and blue. Each has a
   /// texel for each point of the grid.
   std::array<std::vector<BakedFlux>, 3> flux;

@@ -58,16 +58,17 @@ struct ParticleEmitterRow {
   vec3 cooled;    // factor of the emission at death
   float keys_per_m;
   uint first_key;
-  uint keys;             // number of keys of the emitter's depths
-  float map_slice;       // first slice of the emitter's map in the atlas; negative: it has no map
-  float swirl_step_s;    // lifetime / GLOAM_PARTICLE_SWIRL_STEPS
-  float step_way;        // (1 - step_decay) / drag
-  float step_decay;      // exp(-drag * swirl_step_s)
-  vec3 map_from;         // camera-relative corner of the map
-  vec3 map_scale;        // texels per metre
-  vec3 map_size;         // texels
-  float inverse_radius;  // 1 / usual distance of a particle from the column above the origin
-  uvec4 lights;          // indices in the view's LightBlock; the first light_count are used
+  uint keys;              // number of keys of the emitter's depths
+  float map_slice;        // first slice of the emitter's map in the atlas; negative: it has no map
+  float swirl_step_s;     // lifetime / GLOAM_PARTICLE_SWIRL_STEPS
+  float step_way;         // (1 - step_decay) / drag
+  float step_decay;       // exp(-drag * swirl_step_s)
+  vec3 map_from;          // camera-relative corner of the map
+  vec3 map_scale;         // texels per metre
+  vec3 map_size;          // texels
+  float map_light_scale;  // from the light of the map to that of the view
+  float inverse_radius;   // 1 / usual distance of a particle from the column above the origin
+  uvec4 lights;           // indices in the view's LightBlock; the first light_count are used
   vec4 light_weights;
   uvec4 light_channels;  // of the map's visibility, or GLOAM_PARTICLE_UNBAKED
   uint light_count;

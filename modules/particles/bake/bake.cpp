@@ -18,7 +18,7 @@ namespace gloam {
 namespace {
 
 /// Increment it when the same world gives other maps than before.
-constexpr std::uint32_t kBakeVersion = 1;
+constexpr std::uint32_t kBakeVersion = 2;
 constexpr std::size_t kTexelGrain = 64;
 
 std::vector<Entity> entities_of(const BakeLights& lights, const std::vector<std::uint32_t>& chosen) {
@@ -54,7 +54,6 @@ ParticleLightMaps bake_particle_light(const ParticleBakeInput& input) {
     chosen.push_back(divide_lights(input.world, lights, emitter, input.tracer.origin(), options.moment));
     map.static_lights = entities_of(lights, chosen.back().flux);
     map.lights = entities_of(lights, chosen.back().visibility);
-    for (auto& channel : map.flux) channel.resize(map.texels());
     if (!map.lights.empty()) map.visibility.resize(map.texels());
     total += map.texels();
     maps.maps.push_back(std::move(map));
@@ -62,13 +61,15 @@ ParticleLightMaps bake_particle_light(const ParticleBakeInput& input) {
   std::mutex reporting;
   for (std::size_t m = 0; m < maps.maps.size(); ++m) {
     ParticleLightMap& map = maps.maps[m];
+    std::vector<Flux> fluxes(map.texels());
     const TexelInput texels = {input.tracer, lights.all, chosen[m], ambient, options};
     input.executor.parallel_for(map.texels(), kTexelGrain, [&](JobRange range) {
-      bake_texels(texels, range.begin, range.end, map);
+      bake_texels(texels, range.begin, range.end, map, fluxes);
       if (!input.progress) return;
       const std::lock_guard lock(reporting);
       input.progress(done += range.end - range.begin, total);
     });
+    store_flux(fluxes, map);
   }
   mark_as_current(input.world, maps);
   return maps;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -54,6 +55,8 @@ ParticleLightMap read_map(ByteReader& bytes, const std::vector<Entity>& emitters
   for (int i = 0; i < 3; ++i) map.box.max[i] = bytes.value<float>();
   for (int i = 0; i < 3; ++i) map.size[i] = bytes.value<std::uint32_t>();
   for (int i = 0; i < 3; ++i) bytes.require(map.size[i] >= 1 && map.size[i] <= kMostMapSide);
+  map.light_scale = bytes.value<float>();
+  bytes.require(std::isnormal(map.light_scale) && map.light_scale > 0.0f);
   map.static_lights = read_entities(bytes, lights);
   map.lights = read_entities(bytes, lights);
   const std::size_t texels = bytes.ok() ? map.texels() : 0;
@@ -75,6 +78,7 @@ std::string encode_particle_light(const World& world, const ParticleLightMaps& m
     for (int i = 0; i < 3; ++i) bytes.value(map.box.min[i]);
     for (int i = 0; i < 3; ++i) bytes.value(map.box.max[i]);
     for (int i = 0; i < 3; ++i) bytes.value(map.size[i]);
+    bytes.value(map.light_scale);
     write_entities(bytes, lights, map.static_lights);
     write_entities(bytes, lights, map.lights);
     for (const auto& channel : map.flux) bytes.items(std::span<const BakedFlux>(channel));

@@ -13,7 +13,8 @@
 namespace gloam {
 namespace {
 
-constexpr double kMostFlux = 65504.0;
+constexpr double kMostFlux = 65504.0;  // of half floats
+constexpr int kLeastScaleLog2 = -100;  // even brighter light is clamped: floats divide by the scale
 
 double strength(const dvec3& lux) { return std::max({lux.x, lux.y, lux.z}); }
 
@@ -127,8 +128,8 @@ class TexelBaker {
   std::vector<std::uint8_t> hits_, blocked_;
 };
 
-BakedFlux packed(const dvec3& along, double fluence) {
-  const double factor = fluence > kMostFlux ? kMostFlux / fluence : 1.0;
+BakedFlux packed(const dvec3& along, double fluence, double scale) {
+  const double factor = fluence * scale > kMostFlux ? kMostFlux / fluence : scale;
   const dvec3 a = along * factor;
   const auto half = [](double v) { return float_to_half(static_cast<float>(v)); };
   return {half(a.x), half(a.y), half(a.z), half(fluence * factor)};
@@ -145,18 +146,36 @@ Flux ambient_flux(const SceneEnvironment& sky) {
   return flux;
 }
 
-void bake_texels(const TexelInput& input, std::size_t begin, std::size_t end, ParticleLightMap& map) {
+void bake_texels(const TexelInput& input, std::size_t begin, std::size_t end, ParticleLightMap& map,
+                 std::span<Flux> fluxes) {
   const std::vector<std::uint32_t>& dynamic = input.chosen.visibility;
   TexelBaker baker(input, map);
   for (std::size_t texel = begin; texel < end; ++texel) {
-    const Flux flux = baker.flux(texel);
-    for (std::size_t c = 0; c < 3; ++c) {
-      const auto channel = static_cast<int>(c);
-      map.flux[c][texel] = packed(flux.along[channel] + input.ambient.along[channel],
-                                  flux.fluence[channel] + input.ambient.fluence[channel]);
-    }
+    Flux& flux = fluxes[texel] = baker.flux(texel);
+    flux.fluence += input.ambient.fluence;
+    for (int c = 0; c < 3; ++c) flux.along[c] += input.ambient.along[c];
     for (std::size_t i = 0; i < dynamic.size(); ++i)
       map.visibility[texel][i] = static_cast<std::uint8_t>(std::lround(255.0 * baker.visibility(texel, dynamic[i])));
+  }
+}
+
+void store_flux(std::span<const Flux> fluxes, ParticleLightMap& map) {
+  std::vector<double> strengths;
+  for (const Flux& flux : fluxes) strengths.push_back(strength(flux.fluence));
+  std::ranges::sort(strengths);
+  const double most = strengths.empty() ? 0.0 : strengths.back();
+  const double middle = strengths.empty() ? 0.0 : strengths[strengths.size() / 2];
+  int scale_log2 = 0;
+  while (scale_log2 > kLeastScaleLog2 && std::ldexp(most, scale_log2) > kMostFlux &&
+         std::ldexp(middle, scale_log2) >= 2.0)
+    --scale_log2;
+  map.light_scale = std::ldexp(1.0f, scale_log2);
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto channel = static_cast<int>(c);
+    map.flux[c].clear();
+    map.flux[c].reserve(fluxes.size());
+    for (const Flux& flux : fluxes)
+      map.flux[c].push_back(packed(flux.along[channel], flux.fluence[channel], static_cast<double>(map.light_scale)));
   }
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 
 #include "engine/math/types.h"
 #include "engine/render/reference/scene_tracer.h"
@@ -31,9 +32,13 @@ struct TexelInput {
   const ParticleBakeOptions& options;
 };
 
-/// Fills texels [begin, end) of a map; flux and visibility have their sizes. Each ray goes from a point of the texel's
-/// cell to a point of the emitter: so a texel that a wall cuts has the mean of its cell, and a lamp in a cell does not
-/// give infinity.
-void bake_texels(const TexelInput& input, std::size_t begin, std::size_t end, ParticleLightMap& map);
+/// Fills texels [begin, end) of a map's visibility, and of `fluxes`; both have their sizes. Each ray goes from a point
+/// of the texel's cell to a point of the emitter: so a texel that a wall cuts has the mean of its cell, and a lamp in a
+/// cell does not give infinity.
+void bake_texels(const TexelInput& input, std::size_t begin, std::size_t end, ParticleLightMap& map,
+                 std::span<Flux> fluxes);
+
+/// Sets the map's light_scale and flux, from the flux of each texel.
+void store_flux(std::span<const Flux> fluxes, ParticleLightMap& map);
 
 }  // namespace gloam

@@ -92,6 +92,7 @@ void set_map(const ParticleLightMap& map, std::uint32_t slice, const RenderView&
              shaders::ParticleEmitterRow& row) {
   if (slice == kNoSlices) return;
   row.map_slice = static_cast<float>(slice);
+  row.map_light_scale = view.light_scale / map.light_scale;
   row.map_from = vec3(map.origin + dvec3(map.box.min) - view.position);
   row.map_size = vec3(map.size);
   row.map_scale = vec3(map.size) / (map.box.max - map.box.min);

@@ -42,7 +42,7 @@ vec3 baked_light(ParticleEmitterRow e, ShadingPoint p, vec3 place) {
   vec4 n = vec4(p.normal, 1.0);
   vec3 sum = vec3(dot(textureLod(flux_red, place, 0.0), n), dot(textureLod(flux_green, place, 0.0), n),
                   dot(textureLod(flux_blue, place, 0.0), n));
-  return p.diffuse * max(sum, vec3(0.0)) * view.light_scale;
+  return p.diffuse * max(sum, vec3(0.0)) * e.map_light_scale;
 }
 
 vec3 one_light(ShadingPoint p, uint light) {

@@ -130,6 +130,32 @@ TEST(BakedParticleLight, is_finite_around_a_lamp_inside_the_cloud) {
   }
 }
 
+TEST(BakedParticleLight, of_bright_lamps_is_that_of_a_faint_one_times_its_scale) {
+  const auto baked = [](float candela) {
+    BakeScene scene;
+    scene.add_emitter({2.0, 0.0, 0.0});
+    scene.add_lamp({0.0, 0.5, 0.3}, candela);
+    return scene.bake(WallTracer(1.0)).maps.at(0);
+  };
+  const ParticleLightMap faint = baked(100.0f);
+  EXPECT_EQ(faint.light_scale, 1.0f);
+  for (const int k : {4, 12, 20, 40}) {
+    SCOPED_TRACE(k);
+    const double factor = std::exp2(k);
+    const ParticleLightMap bright = baked(100.0f * static_cast<float>(factor));
+    int exponent = 0;
+    EXPECT_EQ(std::frexp(bright.light_scale, &exponent), 0.5f);
+    EXPECT_EQ(bright.light_scale == 1.0f, k == 4);
+    for (std::size_t texel = 0; texel < faint.texels(); ++texel)
+      for (std::size_t i = 0; i < 4; ++i) {
+        const double wanted = static_cast<double>(half_to_float(faint.flux[0][texel][i])) * factor;
+        const double found =
+            static_cast<double>(half_to_float(bright.flux[0][texel][i])) / static_cast<double>(bright.light_scale);
+        ASSERT_NEAR(found, wanted, 1e-3 * std::abs(wanted) + 6e-8 * factor) << texel;
+      }
+  }
+}
+
 TEST(BakedParticleLight, of_many_lamps_needs_few_rays) {
   BakeScene scene;
   scene.add_emitter({0.0, 0.0, 0.0});

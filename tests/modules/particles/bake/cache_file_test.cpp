@@ -38,6 +38,7 @@ TEST(ParticleLightBytes, name_entities_by_their_order_in_the_world) {
     EXPECT_EQ(read->maps[i].static_lights, expected.maps[i].static_lights);
     EXPECT_EQ(read->maps[i].lights, expected.maps[i].lights);
     EXPECT_EQ(read->maps[i].size, expected.maps[i].size);
+    EXPECT_EQ(read->maps[i].light_scale, maps.maps[i].light_scale);
     EXPECT_EQ(read->maps[i].flux, maps.maps[i].flux);
     EXPECT_EQ(read->maps[i].visibility, maps.maps[i].visibility);
   }

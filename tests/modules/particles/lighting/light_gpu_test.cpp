@@ -114,13 +114,15 @@ ParticleLightMap gradient_map(Entity emitter, uvec3 size, const dvec3& origin) {
   map.origin = origin;
   map.box = {vec3(-2.0f), vec3(2.0f)};
   map.size = size;
+  map.light_scale = 0.25f;
   for (std::size_t c = 0; c < 3; ++c)
     for (std::uint32_t z = 0; z < size.z; ++z)
       for (std::uint32_t y = 0; y < size.y; ++y)
         for (std::uint32_t x = 0; x < size.x; ++x) {
           const dvec4 flux = flux_at((dvec3(x, y, z) + 0.5) / dvec3(size), static_cast<int>(c));
           BakedFlux texel;
-          for (int i = 0; i < 4; ++i) texel[static_cast<std::size_t>(i)] = float_to_half(static_cast<float>(flux[i]));
+          for (int i = 0; i < 4; ++i)
+            texel[static_cast<std::size_t>(i)] = float_to_half(map.light_scale * static_cast<float>(flux[i]));
           map.flux[c].push_back(texel);
         }
   for (std::size_t i = 0; i < map.texels(); ++i) map.visibility.push_back({0, 0, 102, 0});

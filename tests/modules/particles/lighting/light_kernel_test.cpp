@@ -43,6 +43,7 @@ struct Lit {
         row.light_channels[l] = static_cast<std::uint32_t>(random() % 5);
       }
       row.map_slice = maps && i % 2 == 0 ? 0.0f : -1.0f;
+      row.map_light_scale = i % 4 == 0 ? 1.0f : 2.0f;
       row.map_from = row.origin - 2.0f;
       row.map_size = vec3(scene.kMapSide);
       row.map_scale = vec3(scene.kMapSide / 4.0f);
@@ -71,7 +72,8 @@ struct Lit {
       const dvec3 texel =
           glm::clamp((at - dvec3(e.map_from)) * dvec3(e.map_scale), dvec3(0.5), dvec3(e.map_size) - 0.5);
       for (int c = 0; c < 3; ++c)
-        sum[c] = albedo[c] * std::max(glm::dot(scene.flux_at(texel, c), dvec4(n, 1.0)), 0.0) / (4.0 * kTwinPi);
+        sum[c] = static_cast<double>(e.map_light_scale) * albedo[c] *
+                 std::max(glm::dot(scene.flux_at(texel, c), dvec4(n, 1.0)), 0.0) / (4.0 * kTwinPi);
       visibility = scene.visibility_at(texel);
     } else {
       sum = albedo *
