@@ -74,18 +74,19 @@ struct LightMap {
   return sum / total;
 }
 
-[[nodiscard]] inline dvec3 fog_source(const Fog& fog, const dvec3& glow) {
-  return glm::min(dvec3(fog.color) + kForwardShare * glow, dvec3(kMostLight));
+[[nodiscard]] inline dvec3 fog_source(const Fog& fog, const dvec3& glow, double most_light = kMostLight) {
+  return glm::min(dvec3(fog.color) + kForwardShare * glow, dvec3(most_light));
 }
 
-/// The picture with fog, by the oracle. distance_m: one per pixel, infinite for the sky.
+/// The picture with fog, by the oracle. distance_m: one per pixel, infinite for the sky. most_light: what the picture's
+/// half floats hold.
 [[nodiscard]] inline std::vector<dvec3> oracle_picture(const LightMap& light, std::span<const double> distance_m,
-                                                       const Fog& fog) {
+                                                       const Fog& fog, double most_light = kMostLight) {
   std::vector<dvec3> fogged;
   for (std::uint32_t y = 0; y < light.height; ++y)
     for (std::uint32_t x = 0; x < light.width; ++x) {
       const std::size_t i = std::size_t{y} * light.width + x;
-      fogged.push_back(integrate_fog(light.texels[i], fog_source(fog, glow_at(light, x, y)),
+      fogged.push_back(integrate_fog(light.texels[i], fog_source(fog, glow_at(light, x, y), most_light),
                                      static_cast<double>(fog.density), distance_m[i]));
     }
   return fogged;

@@ -33,7 +33,9 @@ struct MirrorPlanes : testing::Test {
   [[nodiscard]] std::optional<PlanarMirror> chosen(const dvec3& eye = {0.0, 3.0, 8.0},
                                                    const dvec3& target = dvec3(0.0)) {
     patches.update(world);
-    return choose_mirror(patches.all(), make_view(test::look_at(eye, target, 64, 48), 0), scene_unit(world));
+    ViewSettings view = test::look_at(eye, target, 64, 48);
+    view.camera.near_m *= static_cast<float>(scene_unit(world));
+    return choose_mirror(patches.all(), make_view(view, 0), scene_unit(world));
   }
 
   World world;
