@@ -44,7 +44,9 @@ class Pyramid {
   /// the outermost points meet at the camera.
   [[nodiscard]] dvec3 eye() const {
     const glm::dvec2 across = (highest_ - lowest_) * 0.5, heights = (highest_ + lowest_) * 0.5 / tangents_;
-    const double least = 1e-3 * std::max(1.0, 1e-9 * std::abs(nearest_));  // a single point is seen from a millimetre
+    const double size = std::max(heights.x, heights.y) - farthest_;
+    // Before the nearest point by a thousandth of the size; a single point is seen from a thousandth of a unit.
+    const double least = std::max(1e-3 * (size > 0.0 ? size : 1.0), 1e-12 * std::abs(nearest_));
     const double height = std::max({heights.x, heights.y, nearest_ + least});
     return right_ * across.x + up_ * across.y + back_ * height;
   }
@@ -159,7 +161,7 @@ ViewSettings framed_view(const World& world, std::uint32_t width, std::uint32_t 
     each_drawn_point(world, [&](const dvec3& point) { outline.add(point); });
     eye = outline.centered_eye();
   }
-  settings.camera.near_m = static_cast<float>(std::clamp(pyramid.nearest_m(eye) * 0.5, 1e-4, 0.1));
+  settings.camera.near_m = static_cast<float>(std::clamp(pyramid.nearest_m(eye) * 0.5, 1e-18, 0.1));
   settings.world_from_camera = glm::inverse(glm::lookAt(dvec3(0.0), -back, pyramid.up()));
   settings.world_from_camera[3] = dvec4(eye, 1.0);
   return settings;

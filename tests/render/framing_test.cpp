@@ -67,6 +67,8 @@ TEST_F(FramedView, shows_all_that_is_drawn_and_little_else) {
   const Case cases[] = {{dvec3(0.0), 1.0, 1280, 720},
                         {dvec3(0.0), 30.0, 300, 900},
                         {dvec3(5.0, -3.0, 8.0), 0.01, 64, 64},
+                        {dvec3(0.0), 1e-7, 64, 64},
+                        {dvec3(0.0), 1e7, 64, 64},
                         {dvec3(1e6, 2e6, 0.0), 3.0, 50, 400},
                         {dvec3(-1e9, 0.0, 1e9), 2.0, 640, 360}};
   for (const Case& c : cases) {
