@@ -7,12 +7,12 @@ import signal
 import subprocess
 import time
 
+from gltf_scene import GltfScene
 from program_case import ProgramCase, main
 
 KNOB = "lights.culling"
 # Without shadows, which only take time here.
 QUICK = ("cost", "builtin:plain", "--quick", "--knobs", KNOB, "--set", "shadows.mode=off")
-SMALL = (*QUICK, "--size", "96x54")
 
 
 class Cost(ProgramCase):
@@ -54,20 +54,20 @@ class Cost(ProgramCase):
             self.assertEqual(float(line["flip_mean"]), row["error"]["flip"]["mean"])
 
     def test_a_second_run_measures_nothing_again(self):
-        self.expect(0, *SMALL, "--out", "ledger")
+        self.expect(0, *QUICK, "--out", "ledger")
         first = self.read_json("ledger/ledger.json")
-        run = self.expect(0, *SMALL, "--out", "ledger")
+        run = self.expect(0, *QUICK, "--out", "ledger")
         self.assertIn("2 of 2 rows were measured before", run.stdout)
         self.assertEqual(self.read_json("ledger/ledger.json"), first)
         # Rows of other conditions are not resumed.
-        run = self.expect(0, *SMALL, "--out", "ledger", "--time", "0.5")
+        run = self.expect(0, *QUICK, "--out", "ledger", "--time", "0.5")
         self.assertNotIn("measured before", run.stdout)
 
     def test_damaged_rows_are_measured_again(self):
-        self.expect(0, *SMALL, "--out", "ledger")
+        self.expect(0, *QUICK, "--out", "ledger")
         damaged, _ = self.finished_rows("ledger")
         damaged.write_bytes(damaged.read_bytes()[:-7])
-        self.assertIn("1 of 2 rows were measured before", self.expect(0, *SMALL, "--out", "ledger").stdout)
+        self.assertIn("1 of 2 rows were measured before", self.expect(0, *QUICK, "--out", "ledger").stdout)
 
     def test_a_killed_run_is_resumed(self):
         for number in (signal.SIGINT, signal.SIGKILL):
@@ -87,29 +87,40 @@ class Cost(ProgramCase):
             self.assertEqual(len(self.read_json(f"{folder}/ledger.json")["rows"]), 2)
 
     def test_other_knobs_stay_as_they_are_set(self):
-        self.expect(0, *SMALL, "--out", "ledger")
-        run = self.expect(0, *SMALL, "--out", "ledger", "--set", "lighting.tone_map=linear")
+        self.expect(0, *QUICK, "--out", "ledger")
+        run = self.expect(0, *QUICK, "--out", "ledger", "--set", "lighting.tone_map=linear")
         self.assertNotIn("measured before", run.stdout)
-        run = self.expect(0, *SMALL, "--out", "ledger", "--set", f"{KNOB}=brute")
+        run = self.expect(0, *QUICK, "--out", "ledger", "--set", f"{KNOB}=brute")
         self.assertIn("2 of 2 rows were measured before", run.stdout)
 
     def test_knobs_of_effects_that_the_scene_does_not_call_for_are_skipped(self):
-        # With shadows on, each shadow knob makes shading compile its pipelines again, which takes long.
-        self.expect(0, "cost", "builtin:plain", "--quick", "--size", "96x54", "--out", "ledger", "--quiet", "--set", "shadows.mode=off")
+        # A lamp without shadows and a rough card call for lights and lighting only.
+        scene = GltfScene()
+        scene.node(mesh=scene.card(scene.material()))
+        scene.light(light={"type": "point", "intensity": 12}, translation=[0, 1, 3], extras={"gloam.light.shadow": False})
+        scene.camera(translation=[0, 0, 3])
+        (self.folder / "card.gltf").write_text(scene.text())
+        self.expect(0, "cost", "card.gltf", "--quick", "--out", "ledger", "--quiet")
         ledger = self.read_json("ledger/ledger.json")
         measured = {row["knob"] for row in ledger["rows"]}
         skipped = {entry["knob"] for entry in ledger["skipped"]}
         self.assertIn(KNOB, measured)
         self.assertFalse(measured & skipped)
+        self.assertLessEqual({"shadows.filter", "reflections.mode", "grass.masters", "particles.light", "dof.radius"}, skipped)
         for entry in ledger["skipped"]:
             self.assertTrue(entry["reason"])
 
+    def test_knobs_of_absent_effects_are_measured_if_they_are_named(self):
+        named = "particles.lighting,closeups.filter,fog.radius"
+        self.expect(0, "cost", "builtin:plain", "--quick", "--knobs", named, "--set", "shadows.mode=off", "--out", "ledger")
+        self.assertEqual({row["knob"] for row in self.read_json("ledger/ledger.json")["rows"]}, set(named.split(",")))
+
     def test_a_wrong_value_is_2(self):
-        self.expect(2, *SMALL, "--out", "ledger", "--set", f"{KNOB}=sideways", says="brute, tiled")
+        self.expect(2, *QUICK, "--out", "ledger", "--set", f"{KNOB}=sideways", says="brute, tiled")
 
     def test_a_folder_that_cannot_be_written_is_1(self):
         (self.folder / "file").write_text("")
-        self.expect(1, *SMALL, "--out", "file/ledger", says="file/ledger")
+        self.expect(1, *QUICK, "--out", "file/ledger", says="file/ledger")
 
 
 if __name__ == "__main__":

@@ -25,8 +25,9 @@ ParticleBakeOptions traced_options(const ReferenceInput& input) {
   ParticleBakeOptions options;
   options.moment = BakedMoment::now;
   const std::vector<PlacedEmitter>& emitters = input.world.resource<EmitterSet>().emitters;
-  for (const VisibleEmitter& seen : input.world.view_resource<VisibleEmitters>(input.view.id).emitters)
-    options.emitters.push_back(emitters[seen.emitter].entity);
+  // A view of a world without emitters has no list.
+  if (const auto* visible = input.world.try_view_resource<VisibleEmitters>(input.view.id))
+    for (const VisibleEmitter& seen : visible->emitters) options.emitters.push_back(emitters[seen.emitter].entity);
   std::ranges::sort(options.emitters, {}, &Entity::index);
   const auto count = static_cast<std::uint32_t>(std::max<std::size_t>(options.emitters.size(), 1));
   options.texel_m = kTracedTexel_m;
