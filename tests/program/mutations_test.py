@@ -6,9 +6,8 @@ import base64
 import copy
 import json
 import math
-import os
 
-from program_case import ProgramCase, main
+from program_case import LONG, ProgramCase, main
 from scene_file import scaled_keys, turned
 from window_case import Picture, read_png
 
@@ -136,7 +135,7 @@ class Mutations(ProgramCase):
     def test_changes_that_leave_the_picture_as_it_is(self):
         every = [(case, change, number) for change, numbers, cases in CHANGES for number in numbers for case in cases]
         self.assertGreaterEqual(len(every), 100)
-        chosen = every if os.environ.get("GLOAM_LONG_TESTS") == "1" else every[::17]
+        chosen = every if LONG else every[::17]
         first = {}
         for case, change, number in chosen:
             with self.subTest(case=case, change=change.__name__, number=number):

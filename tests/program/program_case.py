@@ -11,6 +11,7 @@ from pathlib import Path
 
 NO_DEVICE = 4
 SKIPPED = 77
+LONG = bool(os.environ.get("GLOAM_LONG_TESTS"))  # all cases of tests that draw a share of them otherwise
 # Shared by all runs of a test file, so that each pipeline is compiled once.
 CACHE = tempfile.TemporaryDirectory(prefix="gloam-test-cache-")
 

@@ -3,13 +3,11 @@
 """The same scene at another scale, or at another place, gives the same picture. With GLOAM_LONG_TESTS every scene is tried
 at every scale and place."""
 import math
-import os
 
-from program_case import ProgramCase, main
+from program_case import LONG, ProgramCase, main
 from scene_file import SceneFile, turned
 from window_case import read_png
 
-LONG = bool(os.environ.get("GLOAM_LONG_TESTS"))
 SCALES = (0.001, 0.01, 100.0, 1000.0) if LONG else (0.001, 1000.0)
 PLACES = (10.0, 1e3, 1e6) if LONG else (1e6,)  # metres from the origin
 

@@ -70,6 +70,12 @@ struct Bakes : testing::Test {
   Entity wall(const vec3& light, const dmat4& matrix) {
     return scene.draw(scene.mesh(test::quad(1.0f, shining(light))), matrix);
   }
+  /// The walls that expect_quarters() looks for, before a proxy of 4 m at the origin.
+  void quarter_walls() {
+    wall(kRed, at(-1, 1, -0.5));
+    wall(kBlue, at(1, 1, -0.5));
+    wall(kGreen, at(-1, -1, -0.5));
+  }
   Entity proxy(const vec2& size_m, const dmat4& matrix) {
     IbrProxy quad;
     quad.size_m = size_m;
@@ -167,9 +173,7 @@ TEST_F(Bakes, of_bright_light_are_those_of_ordinary_light_times_their_scale) {
   probe.global = true;
   probe.resolution = 16;
   world.create(probe, WorldTransform{at(0, 0, 2)});
-  wall(kRed, at(-1, 1, -0.5));
-  wall(kBlue, at(1, 1, -0.5));
-  wall(kGreen, at(-1, -1, -0.5));
+  quarter_walls();
   const std::vector<Material> materials = scene.assets().materials;
   const ReflectionCaptures ordinary = bake();
   EXPECT_EQ(ordinary.light_scale, 1.0f);
@@ -199,9 +203,7 @@ TEST_F(Bakes, of_bright_light_are_those_of_ordinary_light_times_their_scale) {
 
 TEST_F(Bakes, what_is_animated_is_in_no_capture) {
   const Entity quad = proxy(vec2(4.0f, 4.0f), dmat4(1.0));
-  wall(kRed, at(-1, 1, -0.5));
-  wall(kBlue, at(1, 1, -0.5));
-  wall(kGreen, at(-1, -1, -0.5));
+  quarter_walls();
   const Entity moving = wall(kWhite, dmat4(1.0));
   world.add(moving, LocalTransform{});
   world.add(moving, SourceNode{0});
