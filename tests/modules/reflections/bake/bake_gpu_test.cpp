@@ -30,6 +30,8 @@ gpu::Device* bake_device() {
 
 dmat4 at(double x, double y, double z) { return glm::translate(dmat4(1.0), dvec3(x, y, z)); }
 
+constexpr vec3 kRed(8.0f, 0.0f, 0.0f), kGreen(0.0f, 4.0f, 0.0f), kBlue(0.0f, 0.0f, 2.0f), kWhite(1.0f);
+
 /// A world of walls that shine by themselves.
 struct Bakes : testing::Test {
   std::unique_ptr<JobExecutor> executor = make_pool_executor(2);
@@ -91,8 +93,6 @@ struct Bakes : testing::Test {
     return {half_to_float(from[0]), half_to_float(from[1]), half_to_float(from[2]), half_to_float(from[3])};
   }
 };
-
-constexpr vec3 kRed(8.0f, 0.0f, 0.0f), kGreen(0.0f, 4.0f, 0.0f), kBlue(0.0f, 0.0f, 2.0f), kWhite(1.0f);
 
 /// Expects the colours of the four quarters of a proxy of 4 x 4 m: red, blue; green, nothing.
 void expect_quarters(const CapturedLayers& layers, std::uint32_t layer) {
