@@ -18,7 +18,7 @@ struct ShadingPoint {
   float n_dot_v;  // > 0
   float n_dot_v_raw;
   float smith_v;        // the part of the Smith visibility term that does not depend on the light
-  float normal_spread;  // of the pixel, see spread_highlight; 0: a point's
+  float normal_spread;  // of the pixel, see spread_distribution; 0: a point's
 };
 
 ShadingPoint shading_point(vec3 position, vec3 to_eye, vec3 normal, vec3 base_color, float metallic, float roughness) {
@@ -37,26 +37,75 @@ ShadingPoint shading_point(vec3 position, vec3 to_eye, vec3 normal, vec3 base_co
   return p;
 }
 
-// The slopes of half vectors to a light of this apparent radius fill a disc of the square of the radius
-// half_angle / (2 sqrt(v·h)), of the same solid angle.
-float half_vector_radius2(float v_dot_h, float half_angle) {
-  return 0.25 * half_angle * half_angle / max(v_dot_h, 1e-3);
+// A light with a width, as the surface's normals see it: slopes of normals about the half vector to its centre. The
+// normals that mirror some point of the light to the eye fill an ellipse. Turning a normal by an angle turns its
+// mirrored ray by twice the angle in the plane of incidence, and by 2 v·h times the angle across it: the ellipse is
+// longer across the plane, the more so at grazing angles.
+struct NormalEllipse {
+  float slope2;   // square of the slope of the surface's normal
+  vec2 parts2;    // of slope2: in the plane of incidence and across it
+  vec2 axes2;     // squares of the ellipse's half axes in these directions; x <= y
+  float radius2;  // of the disc of the same solid angle; 0: a point
+};
+
+// half_angle: apparent radius of the light in radians.
+NormalEllipse normal_ellipse(float slope2, float in_plane2, float v_dot_h, float half_angle) {
+  float c = max(v_dot_h, 1e-3);
+  NormalEllipse e;
+  e.slope2 = slope2;
+  e.parts2.x = min(in_plane2, slope2);
+  e.parts2.y = slope2 - e.parts2.x;
+  e.axes2.x = 0.25 * half_angle * half_angle;
+  e.radius2 = e.axes2.x / c;
+  e.axes2.y = e.radius2 / c;
+  return e;
 }
 
-// Factor on the GGX distribution of a light whose half vectors' slopes fill a disc of radius r. Each slope gets the
-// distribution at the slope that is nearer to the normal by a shift s, over the integral of that over all slopes, so
-// that it adds no light: with a = alpha, the integral is (a² + π/2 a s + s²) / a². The s for which it is (a² + r²) / a²
-// also makes the middle of the highlight as bright as the mean of the distribution over the disc. A mirror then shows
-// the disc with its luminance, and a rough surface hardly changes.
-float disc_highlight(float alpha2, float slope, float radius2) {
-  float part = 0.25 * kPi * sqrt(alpha2);
-  float shift = radius2 / (sqrt(part * part + radius2) + part);
-  float nearest = max(slope - shift, 0.0);
-  float fall = (alpha2 + slope * slope) / (alpha2 + nearest * nearest);
-  return fall * fall * alpha2 / (alpha2 + radius2);
+// Distance of a point outside an ellipse from it, <= 0 inside. From the nearest point, axes² p / (t + axes²), the
+// distance is t |p / (t + axes²)|. The step from the bound for t that each axis gives is Newton's on the inverse
+// length, which is nearly linear in t: exact for circles, at most 10 % less at the ratio 2 of the axes, 40 % at 10.
+float distance_from_ellipse(vec2 p, vec2 axes) {
+  vec2 axes2 = axes * axes;
+  vec2 bound = axes * p - axes2;
+  float t = max(max(bound.x, bound.y), 0.0);
+  vec2 weight = 1.0 / (t + axes2);
+  vec2 q = axes * p * weight;
+  float q2 = dot(q, q);
+  t = max(t + q2 * (sqrt(q2) - 1.0) / max(dot(q * q, weight), 1e-30), 0.0);
+  return t * length(p / (t + axes2));
 }
 
-// Distribution of half vectors of a pixel whose normals' slopes spread like a Gaussian exp(-s² / spread). GGX as wide
+// Mean of GGX's distribution of slopes, a² / (π (a² + s²)²) with a = alpha, over the slopes that mirror a light. Over a
+// disc of radius r whose middle is at a distance d it is exactly
+//   (1 - u / R) / (2 π r²), u = a² + d² - r², R² = u² + 4 r² a²:
+// a stereographic projection turns the distribution into the area of a sphere, and the disc into a cap. For an ellipse
+// of the half axes b < c and b c = r² the same form is used, with
+//   u = a² + t² + 2 w t at a distance t outside; w² instead of r² in R², which follows the curvature of the outline;
+//   u at the middle such that the mean is the exact 1 / (π sqrt((a² + b²) (a² + c²))).
+// Where a is not much less than b, the ellipse counts as rounder and the distribution as narrower. The difference from
+// the mean, over all slopes, is at most 6 % of the light at c = 1.7 b, 10 % at c = 3 b, 17 % at c = 14 b.
+// No branches: devices that are processors run both sides of each.
+float mean_distribution(float alpha2, NormalEllipse e) {
+  vec2 axes2 = max(e.axes2, 1e-6 * alpha2);
+  float longer = axes2.y - axes2.x;
+  float rounder = 0.5 * alpha2 * longer / (longer + 0.5 * alpha2);
+  axes2.x += rounder;
+  alpha2 -= 0.5 * rounder;
+  float radius2 = sqrt(axes2.x * axes2.y);
+  float middle = sqrt((alpha2 + axes2.x) * (alpha2 + axes2.y));
+  float middle_u = (middle - 2.0 * radius2) * sqrt((middle + radius2) / (axes2.x + axes2.y + alpha2));
+  vec2 q2 = e.parts2 / axes2;
+  float q = max(q2.x + q2.y, 1e-12);
+  float t = distance_from_ellipse(sqrt(e.parts2), sqrt(axes2));
+  float curved2 = (q2.x * axes2.y + q2.y * axes2.x) / q;
+  float w2 = mix(radius2, curved2, min(q, radius2 / (radius2 + t * t)));
+  float u = mix(middle_u, alpha2, min(q, 1.0)) + t * t + 2.0 * sqrt(w2) * t;
+  float product = 4.0 * w2 * alpha2;
+  float root = sqrt(u * u + product);
+  return 0.5 * (u > 0.0 ? product / (root * (root + u)) : 1.0 - u / root) / (kPi * radius2);
+}
+
+// Distribution of slopes of a pixel whose normals' slopes spread like a Gaussian exp(-s² / spread). GGX as wide
 // as both together would be wrong on both sides: its peak still falls between pixels, and its tails are those of a
 // rough surface, which are seen far around a bright light. A share q of the light goes to a wide GGX, with the tails of
 // the surface's own, and the rest to a core without tails:
@@ -66,18 +115,20 @@ float disc_highlight(float alpha2, float slope, float radius2) {
 // t / r. Both integrate to 1 over all slopes. The factors 1.5 make the peak right where a² is large, and within 2 %
 // where it equals the spread. The factors of t make the core of a point as wide as the Gaussian and the edges of discs
 // two thirds of that: the sum over pixels of no disc varies by more than 3 % with its place.
-float spread_distribution(ShadingPoint p, float n_dot_h, float radius2) {
-  float cos2 = max(n_dot_h * n_dot_h, 1e-6);
-  float slope2 = max(1.0 - cos2, 0.0) / cos2;
+// The core of an ellipse is that of its short axis, stretched along the long one as much as the second moments of
+// ellipse and spread together are.
+float spread_distribution(ShadingPoint p, NormalEllipse e) {
   float wide2 = p.alpha2 + 1.5 * p.normal_spread;
   float tails = p.alpha2 / wide2;
-  float fall = wide2 + slope2;
-  float ggx = wide2 / (kPi * fall * fall) * (radius2 > 0.0 ? disc_highlight(wide2, sqrt(slope2), radius2) : 1.0);
+  float ggx = mean_distribution(wide2, e);
   float core2 = p.normal_spread + 1.5 * p.alpha2;
-  float t = sqrt(core2 * (0.71 * core2 + 0.3 * radius2));
-  float edge = radius2 / t;
-  float core = 1.0 / ((1.0 + exp(min((slope2 - radius2) / t, 80.0))) * kPi * t * (edge + log(1.0 + exp(-edge))));
-  return mix(core, ggx, tails) / (cos2 * cos2);
+  float stretch2 = (e.axes2.y + 2.0 * core2) / (e.axes2.x + 2.0 * core2);
+  float core_slope2 = e.parts2.x + e.parts2.y / stretch2;
+  float t = sqrt(core2 * (0.71 * core2 + 0.3 * e.axes2.x));
+  float edge = e.axes2.x / t;
+  float core = inversesqrt(stretch2) /
+               ((1.0 + exp(min((core_slope2 - e.axes2.x) / t, 80.0))) * kPi * t * (edge + log(1.0 + exp(-edge))));
+  return mix(core, ggx, tails);
 }
 
 // Radiance toward the eye for an illuminance (on a plane that faces the light) from the unit direction `to_light`. For
@@ -93,12 +144,15 @@ vec3 reflected_disc(ShadingPoint p, vec3 to_light, vec3 illuminance, float half_
   float f = (n_dot_h * p.alpha2 - n_dot_h) * n_dot_h + 1.0;
   float smith = n_dot_l * p.smith_v + p.n_dot_v * sqrt(n_dot_l * (n_dot_l - n_dot_l * p.alpha2) + p.alpha2);
   float specular = 0.5 * p.alpha2 / (kPi * f * f * smith);  // distribution · visibility
-  float radius2 = half_vector_radius2(v_dot_h, half_angle);
-  if (p.normal_spread > 0.0) {
-    specular = 0.5 * spread_distribution(p, n_dot_h, radius2) / smith;
-  } else if (half_angle > 0.0) {
-    float slope = sqrt(max(1.0 - n_dot_h * n_dot_h, 0.0)) / max(n_dot_h, 1e-3);
-    specular *= disc_highlight(p.alpha2, slope, radius2);
+  if (p.normal_spread > 0.0 || half_angle > 0.0) {
+    // The half vector's part in the plane of incidence is along l - v, at right angles to l + v.
+    float cos2 = max(n_dot_h * n_dot_h, 1e-6);
+    float difference = n_dot_l_raw - p.n_dot_v_raw;
+    float in_plane2 = difference * difference / (max(4.0 - sum2, 1e-6) * cos2);
+    float slope2 = max(1.0 - n_dot_h * n_dot_h, 0.0) / cos2;
+    NormalEllipse e = normal_ellipse(slope2, in_plane2, v_dot_h, half_angle);
+    float slopes = p.normal_spread > 0.0 ? spread_distribution(p, e) : mean_distribution(p.alpha2, e);
+    specular = 0.5 * slopes / (cos2 * cos2 * smith);
   }
   float one = 1.0 - v_dot_h;
   float one2 = one * one;
