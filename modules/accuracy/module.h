@@ -27,14 +27,20 @@ struct ModuleCost {
   std::string module;
   double cpu_ms = 0.0;  ///< summed over threads
   double gpu_ms = 0.0;
+  bool operator==(const ModuleCost&) const = default;
 };
 
 /// Time of one frame.
 struct FrameCost {
   double cpu_ms = 0.0;
   double gpu_ms = 0.0;
+  /// Only of a device that is a processor: processor time of the process over the frame, divided by the cores.
+  double processor_ms = 0.0;
   std::vector<ModuleCost> modules;  ///< modules with systems or passes in the frame
-  [[nodiscard]] double ms() const { return cpu_ms + gpu_ms; }
+  [[nodiscard]] double wall_ms() const { return cpu_ms + gpu_ms; }
+  /// By the ledger's clock.
+  [[nodiscard]] double ms() const { return processor_ms > 0.0 ? processor_ms : wall_ms(); }
+  bool operator==(const FrameCost&) const = default;
   /// The cost of a module; all 0 if it took no part.
   [[nodiscard]] ModuleCost of(std::string_view module) const {
     for (const ModuleCost& cost : modules)
@@ -88,9 +94,12 @@ struct CostRequest {
   std::string folder;          ///< finished rows and references are stored below it
 };
 
-inline constexpr std::uint32_t kLedgerFrames = 20;    ///< timed frames per value
+inline constexpr std::uint32_t kLedgerFrames = 200;  ///< most timed frames per value
+/// Timing ends when the 95 % interval of the ratio reaches at most this far from it, relative to it.
+inline constexpr double kLedgerInterval = 0.02;
+inline constexpr double kQuickInterval = 0.06;
 inline constexpr std::uint32_t kLedgerSamples = 256;  ///< samples of references that sample
-inline constexpr std::uint32_t kQuickFrames = 5;
+inline constexpr std::uint32_t kQuickFrames = 40;
 inline constexpr std::uint32_t kQuickSamples = 64;
 inline constexpr std::uint32_t kQuickWidth = 320;
 inline constexpr std::uint32_t kQuickHeight = 180;
@@ -103,8 +112,9 @@ inline constexpr std::uint32_t kQuickHeight = 180;
 [[nodiscard]] std::vector<std::string> ledger_values(const Knob& knob);
 
 /// Measures every value of every knob of the request: its error against the knob's reference, or by the knob's measure
-/// if it has one; and its time, alternating with the default. Rows that an earlier run finished are not measured again.
-/// The knobs have their previous values afterwards. An error names the knob and the value.
+/// if it has one; and its time, alternating with the default until the ratio is known well enough or `frames` are
+/// timed. All rows of the default have the same time: that of all its frames. Rows that an earlier run finished are not
+/// measured again. The knobs have their previous values afterwards. An error names the knob and the value.
 [[nodiscard]] Result<Ledger> measure_costs(const CostRequest& request, CostSubject& subject, CostProgress& progress);
 
 /// A tracer of the world's triangles as its systems left them. The triangles are copied, so the world may change.

@@ -57,16 +57,25 @@ struct LedgerRow {
   /// only.
   std::optional<ErrorPair> temporal;
 
-  TimeSummary ms;       ///< of a frame: its CPU time plus its GPU time
-  double cpu_ms = 0.0;  ///< medians of CPU and GPU time
+  /// Of a frame, by the ledger's clock: the default's time, times the ratio.
+  TimeSummary ms;
+  double wall_ms = 0.0;  ///< median of CPU time plus GPU time, as clocks on the wall show them
+  double cpu_ms = 0.0;   ///< medians of the two
   double gpu_ms = 0.0;
   double module_cpu_ms = 0.0;  ///< medians for the knob's module: its systems, summed over threads, and its passes
   double module_gpu_ms = 0.0;
   /// Time divided by the default's time: median over pairs of neighbouring frames; 1 for the default itself.
   double ratio = 1.0;
+  double ratio_low = 1.0;  ///< 95 % interval of the ratio
+  double ratio_high = 1.0;
+  double sure_low = 1.0;  ///< 99.8 % interval, by which values with equal pictures are told apart
+  double sure_high = 1.0;
+  std::uint32_t pairs = 0;      ///< of frames that were timed
   std::uint64_t gpu_bytes = 0;  ///< of all modules
-  /// Pareto front: no other value of the knob has a ratio and an error that are both no greater and one of them less.
-  bool on_front = false;
+  std::string picture;          ///< hash of the value's picture and light
+  /// The picture is equal to the default's to the bit, and no difference in time is significant.
+  bool no_effect = false;
+  bool on_front = false;  ///< see mark_pareto_front()
 
   /// The error for the front and for reports: `counted` if set; otherwise mean FLIP or, without FLIP, RMSE, and at
   /// least reference_noise. None if none of them is set.
@@ -85,10 +94,11 @@ struct LedgerHeader {
   std::uint32_t subgroup_size = 0;
   std::uint32_t width = 0;
   std::uint32_t height = 0;
+  std::string clock;          ///< what LedgerRow::ms is
   std::string version;        ///< of the program
   std::string build;          ///< hash of this build, hexadecimal
   bool quick = false;         ///< small picture, few frames and samples: noisier
-  std::uint32_t frames = 0;   ///< timed frames per value
+  std::uint32_t frames = 0;   ///< most timed frames per value
   std::uint32_t samples = 0;  ///< samples of references that sample
   bool operator==(const LedgerHeader&) const = default;
 };
@@ -106,7 +116,12 @@ struct Ledger {
   std::vector<SkippedKnob> skipped;
 };
 
-/// Sets on_front of every row, for each knob separately. Rows without an error and wrong rows are on no front.
+/// Sets no_effect and on_front of every row, for each knob separately. A row is on the front unless another value
+///   is as right and significantly cheaper (the intervals of their ratios are apart), or
+///   is not significantly dearer, and more right by more than the references' noise.
+/// Of values with equal pictures at most one is: the one that is cheaper than the others (by their 99.8 % intervals),
+/// or else the default or the first. If that is all values of the knob, none is. Rows without an error and wrong rows
+/// are on no front.
 void mark_pareto_front(std::vector<LedgerRow>& rows);
 
 /// A readable table: a header, then one aligned line per row. `*` marks the front, `!` a wrong row.

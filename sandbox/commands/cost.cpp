@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "engine/core/processor_time.h"
 #include "engine/core/text/formatted.h"
 #include "modules/accuracy/module.h"
 #include "modules/accuracy/outputs.h"
@@ -34,7 +35,9 @@ class ConsoleProgress final : public CostProgress {
   void finished(const LedgerRow& row, bool resumed) override {
     ++(resumed ? resumed_ : measured_);
     if (quiet_ || console_.shows_progress()) return;
-    const std::string times = formatted(": %.3f ms, %.2f of the default", row.ms.median_ms, row.ratio);
+    const std::string times = row.is_default ? std::string(": the default")
+                                             : formatted(": %.2f (%.2f-%.2f) of the default's time, %u pairs of frames",
+                                                         row.ratio, row.ratio_low, row.ratio_high, row.pairs);
     console_.print(row.knob + "=" + row.value + times + (resumed ? " (measured before)" : "") + "\n");
     // Flush, so that the reader of a pipe gets the line at once. A failure to write is reported at the end.
     static_cast<void>(console_.flush());
@@ -57,6 +60,12 @@ KnobRegistry knobs_of(const ModuleList& modules) {
   return registry;
 }
 
+/// What SessionCosts measures.
+std::string clock_of(gpu::DeviceType type) {
+  if (type != gpu::DeviceType::cpu) return "CPU time plus GPU time of a frame, on the wall";
+  return formatted("processor time of a frame, divided by %u cores", usable_cores());
+}
+
 LedgerHeader header_of(const Session& session, const Options& options) {
   const gpu::DeviceInfo& device = session.device->info();
   return {.scene = options.scene,
@@ -69,6 +78,7 @@ LedgerHeader header_of(const Session& session, const Options& options) {
           .subgroup_size = device.subgroup_size,
           .width = options.width,
           .height = options.height,
+          .clock = clock_of(device.type),
           .version = GLOAM_VERSION,
           .build = program_hash(),
           .quick = options.quick,

@@ -11,7 +11,6 @@
 #include "engine/core/text/formatted.h"
 #include "engine/math/srgb.h"
 #include "modules/accuracy/cost/knob_overrides.h"
-#include "modules/accuracy/cost/timing.h"
 
 namespace gloam {
 namespace {
@@ -21,7 +20,7 @@ namespace {
 constexpr std::int32_t kSettlingFrames = 3;
 
 /// Version of metrics and protocol: rows stored under another version are measured again.
-constexpr int kMethod = 4;
+constexpr int kMethod = 5;
 
 std::string exact_text(double value) { return formatted("%.17g", value); }
 
@@ -98,11 +97,22 @@ std::string KnobMeasurement::identity(const std::string& value) const {
          std::to_string(request_.sequence);
 }
 
-Result<LedgerRow> KnobMeasurement::measure(const std::string& value) {
-  LedgerRow row = {.knob = knob_.name, .value = value, .is_default = value == default_};
+Result<MeasuredRow> KnobMeasurement::measure(const std::string& value) {
+  MeasuredRow measured = {.row = {.knob = knob_.name, .value = value, .is_default = value == default_}};
+  LedgerRow& row = measured.row;
   GLOAM_TRY(judge(value, row));
-  GLOAM_TRY(time(value, row));
-  return row;
+  GLOAM_TRY(set(value));
+  if (!row.is_default) {
+    auto times = time(value);
+    if (!times) return times.error();
+    set_times(summarize_times(*times, knob_.module), row);
+    row.pairs = static_cast<std::uint32_t>(times->candidate.size());
+    measured.standard = std::move(times->standard);
+  }
+  const auto bytes = subject_.gpu_bytes();
+  if (!bytes) return bytes.error();
+  row.gpu_bytes = *bytes;
+  return measured;
 }
 
 Status KnobMeasurement::settle() {
@@ -135,11 +145,17 @@ Result<KnobMeasurement::Drawn> KnobMeasurement::draw() {
 
 Status KnobMeasurement::judge(const std::string& value, LedgerRow& row) {
   if (measure_) return judge_by_measure(value, row);
-  if (!reference_ && knob_.exact.empty()) return {};
+  if (!reference_ && knob_.exact.empty()) {
+    const auto drawn = draw(value);
+    if (!drawn) return drawn.error();
+    row.picture = hash_of(drawn->frame);
+    return {};
+  }
   const bool serves_all = !reference_ || !reference_->follows_value;
   if (serves_all && !common_reference_) GLOAM_TRY(draw_common_reference());
   const auto drawn = draw(value);
   if (!drawn) return drawn.error();
+  row.picture = hash_of(drawn->frame);
   return reference_ ? judge_by_module(value, *drawn, row) : judge_by_exact(*drawn, row);
 }
 
@@ -183,6 +199,7 @@ Status KnobMeasurement::judge_by_measure(const std::string& value, LedgerRow& ro
   GLOAM_TRY(overrides.set(measure_->judged_with));
   const auto drawn = draw();
   if (!drawn) return drawn.error();
+  row.picture = hash_of(drawn->frame);
   const FrameCounters counters = subject_.counters();
   if (const auto error = measure_->error(counters, standard_)) row.counted = CountedError{*error, measure_->unit};
   row.wrong = measure_->fault(counters);
@@ -270,25 +287,21 @@ Result<JudgedReference> KnobMeasurement::compute(const FramePictures& frame) {
   return reference;
 }
 
-Status KnobMeasurement::time(const std::string& value, LedgerRow& row) {
+Result<AlternatingTimes> KnobMeasurement::time(const std::string& value) {
   std::int32_t index = 0;  // time goes on, so that frames include the work of simulations
   const auto run = [&](TimedSide side) -> Result<FrameCost> {
     GLOAM_TRY(set(side == TimedSide::standard ? default_ : value));
     return subject_.draw(index++);
   };
-  const auto times = time_alternating({.pairs = request_.header.frames}, run);
+  const LedgerHeader& header = request_.header;
+  return time_alternating({.most_pairs = header.frames, .wanted = header.quick ? kQuickInterval : kLedgerInterval},
+                          run);
+}
+
+Result<std::vector<FrameCost>> KnobMeasurement::time_default() {
+  auto times = time(default_);
   if (!times) return times.error();
-  const TimedValue timed = summarize_times(*times, knob_.module);
-  row.ms = timed.ms;
-  row.cpu_ms = timed.cpu_ms;
-  row.gpu_ms = timed.gpu_ms;
-  row.module_cpu_ms = timed.module_cpu_ms;
-  row.module_gpu_ms = timed.module_gpu_ms;
-  row.ratio = row.is_default ? 1.0 : timed.ratio;
-  const auto bytes = subject_.gpu_bytes();
-  if (!bytes) return bytes.error();
-  row.gpu_bytes = *bytes;
-  return {};
+  return std::move(times->standard);
 }
 
 }  // namespace gloam

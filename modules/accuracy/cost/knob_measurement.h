@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "modules/accuracy/cost/picture_error.h"
+#include "modules/accuracy/cost/timing.h"
 #include "modules/accuracy/ledger/reference_cache.h"
+#include "modules/accuracy/ledger/row_json.h"
 #include "modules/accuracy/module.h"
 
 namespace gloam {
@@ -24,7 +26,11 @@ class KnobMeasurement {
 
   /// Everything that a row of this value depends on, in one line.
   [[nodiscard]] std::string identity(const std::string& value) const;
-  [[nodiscard]] Result<LedgerRow> measure(const std::string& value);
+  [[nodiscard]] Result<MeasuredRow> measure(const std::string& value);
+  /// Times the default against itself.
+  [[nodiscard]] Result<std::vector<FrameCost>> time_default();
+  /// Whether the user's own value of the knob is the default, so that frames of its default are the user's frames.
+  [[nodiscard]] bool default_is_users() const { return users_ == default_; }
 
  private:
   struct Drawn {
@@ -58,7 +64,7 @@ class KnobMeasurement {
   [[nodiscard]] Result<std::vector<FramePictures>> draw_motion(const std::string& value, bool references);
   [[nodiscard]] Result<NoisyReference> module_reference(const std::string& value, const FramePictures& frame);
   [[nodiscard]] Result<JudgedReference> compute(const FramePictures& frame);
-  [[nodiscard]] Status time(const std::string& value, LedgerRow& row);
+  [[nodiscard]] Result<AlternatingTimes> time(const std::string& value);
 
   const CostRequest& request_;
   CostSubject& subject_;

@@ -3,41 +3,88 @@
 #include <utility>
 
 #include "engine/core/assert.h"
+#include "modules/accuracy/cost/default_times.h"
 #include "modules/accuracy/cost/knob_measurement.h"
 #include "modules/accuracy/ledger/measurement_store.h"
 #include "modules/accuracy/module.h"
 
 namespace gloam {
+namespace {
+
+/// Rows that are measured, or found in the store.
+class LedgerRun {
+ public:
+  LedgerRun(const CostRequest& request, CostSubject& subject, CostProgress& progress)
+      : request_(request), subject_(subject), progress_(progress), store_(request.folder + "/measurements") {
+    for (const std::string& name : request.knobs) total_ += ledger_values(knob(name)).size();
+  }
+
+  [[nodiscard]] Status measure(const std::string& name) {
+    KnobMeasurement measurement(request_, subject_, knob(name));
+    KnobRows& rows = knobs_.emplace_back(KnobRows{knob(name).module, measurement.default_is_users(), {}});
+    bool timed = false;
+    for (const std::string& value : ledger_values(knob(name))) {
+      GLOAM_TRY(add(measurement, name, value, rows));
+      timed = timed || !rows.rows.back().standard.empty();
+    }
+    if (timed) return {};
+    // A knob with one value: nothing was timed beside its default.
+    auto frames = measurement.time_default();
+    if (!frames) return frames.error();
+    rows.rows.front().standard = std::move(frames).value();
+    return {};
+  }
+
+  [[nodiscard]] std::vector<LedgerRow> finish() {
+    share_default_times(knobs_);
+    std::vector<LedgerRow> rows;
+    for (KnobRows& knob : knobs_)
+      for (MeasuredRow& measured : knob.rows) rows.push_back(std::move(measured.row));
+    mark_pareto_front(rows);
+    return rows;
+  }
+
+ private:
+  [[nodiscard]] const Knob& knob(const std::string& name) const {
+    const Knob* found = subject_.knobs().find(name);
+    GLOAM_ASSERT(found != nullptr, "a measured knob exists");
+    return *found;
+  }
+
+  [[nodiscard]] Status add(KnobMeasurement& measurement, const std::string& name, const std::string& value,
+                           KnobRows& rows) {
+    const std::string identity = measurement.identity(value);
+    std::optional<MeasuredRow> row = store_.load(identity);
+    const bool resumed = row.has_value();
+    if (!resumed) {
+      progress_.measuring(name, value, done_, total_);
+      auto measured = measurement.measure(value);
+      if (!measured) return Error{measured.error().kind, name + "=" + value + ": " + measured.error().message};
+      row = std::move(measured).value();
+      GLOAM_TRY(store_.save(identity, *row));
+    }
+    progress_.finished(row->row, resumed);
+    ++done_;
+    rows.rows.push_back(std::move(*row));
+    return {};
+  }
+
+  const CostRequest& request_;
+  CostSubject& subject_;
+  CostProgress& progress_;
+  const MeasurementStore store_;
+  std::size_t done_ = 0;
+  std::size_t total_ = 0;
+  std::vector<KnobRows> knobs_;
+};
+
+}  // namespace
 
 Result<Ledger> measure_costs(const CostRequest& request, CostSubject& subject, CostProgress& progress) {
   GLOAM_ASSERT(request.header.frames > 0 && request.sequence > 0, "a ledger is of at least one frame");
-  const MeasurementStore store(request.folder + "/measurements");
-  std::size_t total = 0;
-  for (const std::string& name : request.knobs) {
-    GLOAM_ASSERT(subject.knobs().find(name) != nullptr, "a measured knob exists");
-    total += ledger_values(*subject.knobs().find(name)).size();
-  }
-  Ledger ledger = {.header = request.header, .rows = {}, .skipped = request.skipped};
-  for (const std::string& name : request.knobs) {
-    const Knob& knob = *subject.knobs().find(name);
-    KnobMeasurement measurement(request, subject, knob);
-    for (const std::string& value : ledger_values(knob)) {
-      const std::string identity = measurement.identity(value);
-      std::optional<LedgerRow> row = store.load(identity);
-      const bool resumed = row.has_value();
-      if (!resumed) {
-        progress.measuring(name, value, ledger.rows.size(), total);
-        auto measured = measurement.measure(value);
-        if (!measured) return Error{measured.error().kind, name + "=" + value + ": " + measured.error().message};
-        row = std::move(measured).value();
-        GLOAM_TRY(store.save(identity, *row));
-      }
-      progress.finished(*row, resumed);
-      ledger.rows.push_back(std::move(*row));
-    }
-  }
-  mark_pareto_front(ledger.rows);
-  return ledger;
+  LedgerRun run(request, subject, progress);
+  for (const std::string& name : request.knobs) GLOAM_TRY(run.measure(name));
+  return Ledger{.header = request.header, .rows = run.finish(), .skipped = request.skipped};
 }
 
 }  // namespace gloam

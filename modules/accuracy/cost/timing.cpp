@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "modules/accuracy/cost/timing.h"
 
+#include <algorithm>
+
 #include "engine/core/assert.h"
-#include "modules/accuracy/metrics/statistics.h"
 
 namespace gloam {
 namespace {
@@ -17,6 +18,25 @@ Status run_side(const RunFrame& run, TimedSide side, std::uint32_t left_out, std
   return {};
 }
 
+/// Of the pairs whose standard frame has a time.
+std::vector<double> ratios_of(const AlternatingTimes& times) {
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < times.candidate.size(); ++i)
+    if (times.standard[i].ms() > 0.0) ratios.push_back(times.candidate[i].ms() / times.standard[i].ms());
+  return ratios;
+}
+
+bool known_well(const TimingPlan& plan, const AlternatingTimes& times) {
+  constexpr std::size_t kPairsBetween = 4;  // an interval takes as long as drawing a small frame
+  const std::size_t pairs = times.candidate.size();
+  if (pairs < plan.least_pairs || pairs % kPairsBetween != 0) return false;
+  std::vector<double> ratios = ratios_of(times);
+  if (ratios.empty()) return true;
+  const Interval interval = median_interval(ratios);
+  const double ratio = quantile(ratios, 0.5);
+  return std::max(ratio - interval.low, interval.high - ratio) <= plan.wanted * ratio;
+}
+
 template <class Member>
 double median_of(const std::vector<FrameCost>& costs, Member&& member) {
   std::vector<double> values;
@@ -27,34 +47,54 @@ double median_of(const std::vector<FrameCost>& costs, Member&& member) {
 }  // namespace
 
 Result<AlternatingTimes> time_alternating(const TimingPlan& plan, const RunFrame& run) {
-  GLOAM_ASSERT(plan.pairs > 0, "times are of at least one frame");
+  GLOAM_ASSERT(plan.most_pairs > 0, "times are of at least one frame");
   AlternatingTimes times;
   for (const TimedSide side : {TimedSide::standard, TimedSide::candidate})
     GLOAM_TRY(run_side(run, side, plan.first_warm_up, nullptr));
-  for (std::uint32_t pair = 0; pair < plan.pairs; ++pair) {
+  do {
     GLOAM_TRY(run_side(run, TimedSide::standard, plan.warm_up, &times.standard));
     GLOAM_TRY(run_side(run, TimedSide::candidate, plan.warm_up, &times.candidate));
-  }
+  } while (times.candidate.size() < plan.most_pairs && !known_well(plan, times));
   return times;
 }
 
-TimedValue summarize_times(const AlternatingTimes& times, std::string_view module) {
-  GLOAM_ASSERT(!times.candidate.empty(), "times are of at least one frame");
-  GLOAM_ASSERT(times.standard.size() == times.candidate.size(), "times come in pairs");
+TimedValue summarize_frames(const std::vector<FrameCost>& frames, std::string_view module) {
+  GLOAM_ASSERT(!frames.empty(), "times are of at least one frame");
   std::vector<double> ms;
-  std::vector<double> ratios;
-  for (std::size_t i = 0; i < times.candidate.size(); ++i) {
-    ms.push_back(times.candidate[i].ms());
-    if (times.standard[i].ms() > 0.0) ratios.push_back(times.candidate[i].ms() / times.standard[i].ms());
-  }
+  for (const FrameCost& cost : frames) ms.push_back(cost.ms());
   TimedValue value;
   value.ms = {.median_ms = quantile(ms, 0.5), .p10_ms = quantile(ms, 0.1), .p90_ms = quantile(ms, 0.9)};
-  value.cpu_ms = median_of(times.candidate, [](const FrameCost& cost) { return cost.cpu_ms; });
-  value.gpu_ms = median_of(times.candidate, [](const FrameCost& cost) { return cost.gpu_ms; });
-  value.module_cpu_ms = median_of(times.candidate, [&](const FrameCost& cost) { return cost.of(module).cpu_ms; });
-  value.module_gpu_ms = median_of(times.candidate, [&](const FrameCost& cost) { return cost.of(module).gpu_ms; });
-  if (!ratios.empty()) value.ratio = quantile(ratios, 0.5);
+  value.wall_ms = median_of(frames, [](const FrameCost& cost) { return cost.wall_ms(); });
+  value.cpu_ms = median_of(frames, [](const FrameCost& cost) { return cost.cpu_ms; });
+  value.gpu_ms = median_of(frames, [](const FrameCost& cost) { return cost.gpu_ms; });
+  value.module_cpu_ms = median_of(frames, [&](const FrameCost& cost) { return cost.of(module).cpu_ms; });
+  value.module_gpu_ms = median_of(frames, [&](const FrameCost& cost) { return cost.of(module).gpu_ms; });
   return value;
+}
+
+TimedValue summarize_times(const AlternatingTimes& times, std::string_view module) {
+  GLOAM_ASSERT(times.standard.size() == times.candidate.size(), "times come in pairs");
+  TimedValue value = summarize_frames(times.candidate, module);
+  std::vector<double> ratios = ratios_of(times);
+  if (ratios.empty()) return value;
+  value.ratio_interval = median_interval(ratios);
+  value.sure_interval = median_interval(ratios, kSureProbability);
+  value.ratio = quantile(ratios, 0.5);
+  return value;
+}
+
+void set_times(const TimedValue& timed, LedgerRow& row) {
+  row.ms = timed.ms;
+  row.wall_ms = timed.wall_ms;
+  row.cpu_ms = timed.cpu_ms;
+  row.gpu_ms = timed.gpu_ms;
+  row.module_cpu_ms = timed.module_cpu_ms;
+  row.module_gpu_ms = timed.module_gpu_ms;
+  row.ratio = timed.ratio;
+  row.ratio_low = timed.ratio_interval.low;
+  row.ratio_high = timed.ratio_interval.high;
+  row.sure_low = timed.sure_interval.low;
+  row.sure_high = timed.sure_interval.high;
 }
 
 }  // namespace gloam

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/core/result.h"
+#include "modules/accuracy/metrics/statistics.h"
 #include "modules/accuracy/module.h"
 
 namespace gloam {
@@ -15,9 +16,12 @@ namespace gloam {
 enum class TimedSide { standard, candidate };
 
 struct TimingPlan {
-  std::uint32_t pairs = kLedgerFrames;  ///< measured frames per side, > 0
-  std::uint32_t first_warm_up = 3;      ///< unmeasured frames per side at the start: pipelines, memory, caches
-  std::uint32_t warm_up = 1;            ///< unmeasured frames after every change of side
+  std::uint32_t most_pairs = kLedgerFrames;  ///< measured frames per side, > 0
+  /// Measuring ends when the ratio's interval reaches at most this far from the ratio, relative to it.
+  double wanted = 0.02;
+  std::uint32_t least_pairs = 12;   ///< before that is asked: intervals of fewer are often too narrow
+  std::uint32_t first_warm_up = 3;  ///< unmeasured frames per side at the start: pipelines, memory, caches
+  std::uint32_t warm_up = 1;        ///< unmeasured frames after every change of side
 };
 
 /// Costs of the measured frames, in order. The i-th frames of the two sides were measured next to each other.
@@ -29,19 +33,32 @@ struct AlternatingTimes {
 /// Applies the knob value of a side, if the last call was for the other side, and draws one frame.
 using RunFrame = std::function<Result<FrameCost>(TimedSide)>;
 
-/// Alternates the sides (A, B, A, B …), so that a drift of the machine's speed affects both.
+/// Alternates the sides (A, B, A, B …), so that a drift of the machine's speed affects both, until the ratio is known
+/// well enough.
 [[nodiscard]] Result<AlternatingTimes> time_alternating(const TimingPlan& plan, const RunFrame& run);
+
+/// Of values that change nothing, one in twenty would lie outside a 95 % interval, and there are a hundred in a ledger.
+inline constexpr double kSureProbability = 0.998;
 
 struct TimedValue {
   TimeSummary ms;
-  double cpu_ms = 0.0;  ///< medians
+  double wall_ms = 0.0;  ///< medians
+  double cpu_ms = 0.0;
   double gpu_ms = 0.0;
   double module_cpu_ms = 0.0;  ///< medians of the module's share
   double module_gpu_ms = 0.0;
   double ratio = 1.0;  ///< candidate / standard, median over pairs; pairs with a standard time of 0 are left out
+  Interval ratio_interval = {1.0, 1.0};  ///< 95 %
+  Interval sure_interval = {1.0, 1.0};   ///< kSureProbability
 };
+
+/// Statistics of frames of one setting; the ratio is 1.
+[[nodiscard]] TimedValue summarize_frames(const std::vector<FrameCost>& frames, std::string_view module = {});
 
 /// Statistics of the candidate. `module`: the module that module_cpu_ms and module_gpu_ms refer to.
 [[nodiscard]] TimedValue summarize_times(const AlternatingTimes& times, std::string_view module = {});
+
+/// Puts times and ratio into a row.
+void set_times(const TimedValue& timed, LedgerRow& row);
 
 }  // namespace gloam

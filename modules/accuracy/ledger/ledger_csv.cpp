@@ -45,7 +45,7 @@ constexpr const char* kCsvColumns =
     "knob,value,default,reference_kind,reference,reference_noise,below_noise,counted,counted_unit,wrong,flip_mean,flip_"
     "p99,rmse,"
     "rmse_p99,psnr_db,temporal_mean,temporal_p99,median_ms,p10_ms,p90_ms,cpu_ms,gpu_ms,module_cpu_ms,module_gpu_ms,"
-    "ratio,gpu_bytes,front\n";
+    "ratio,gpu_bytes,front,ratio_low,ratio_high,pairs,wall_ms,picture,no_effect\n";
 
 }  // namespace
 
@@ -61,6 +61,8 @@ std::string ledger_csv(const Ledger& ledger) {
     line.number(row.ms.median_ms).number(row.ms.p10_ms).number(row.ms.p90_ms).number(row.cpu_ms).number(row.gpu_ms);
     line.number(row.module_cpu_ms).number(row.module_gpu_ms);
     line.number(row.ratio).integer(row.gpu_bytes).flag(row.on_front);
+    line.number(row.ratio_low).number(row.ratio_high).integer(row.pairs).number(row.wall_ms);
+    line.text(row.picture).flag(row.no_effect);
     text += line.finish();
   }
   return text;

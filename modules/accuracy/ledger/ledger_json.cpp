@@ -45,11 +45,17 @@ Json json_of(const LedgerRow& row) {
   json["below_noise"] = row.below_noise;
   json["wrong"] = row.wrong;
   json["ms"] = {{"median", row.ms.median_ms}, {"p10", row.ms.p10_ms}, {"p90", row.ms.p90_ms}};
+  json["wall_ms"] = row.wall_ms;
   json["cpu_ms"] = row.cpu_ms;
   json["gpu_ms"] = row.gpu_ms;
   json["module_ms"] = {{"cpu", row.module_cpu_ms}, {"gpu", row.module_gpu_ms}};
   json["ratio"] = row.ratio;
+  json["ratio_interval"] = {row.ratio_low, row.ratio_high};
+  json["ratio_sure_interval"] = {row.sure_low, row.sure_high};
+  json["pairs"] = row.pairs;
   json["gpu_bytes"] = row.gpu_bytes;
+  json["picture"] = row.picture;
+  json["no_effect"] = row.no_effect;
   json["front"] = row.on_front;
   return json;
 }
@@ -68,14 +74,36 @@ LedgerRow row_of(const Json& json) {
   row.wrong = json.at("wrong").get<std::string>();
   const Json& ms = json.at("ms");
   row.ms = {ms.at("median").get<double>(), ms.at("p10").get<double>(), ms.at("p90").get<double>()};
+  row.wall_ms = json.at("wall_ms").get<double>();
   row.cpu_ms = json.at("cpu_ms").get<double>();
   row.gpu_ms = json.at("gpu_ms").get<double>();
   row.module_cpu_ms = json.at("module_ms").at("cpu").get<double>();
   row.module_gpu_ms = json.at("module_ms").at("gpu").get<double>();
   row.ratio = json.at("ratio").get<double>();
+  row.ratio_low = json.at("ratio_interval").at(0).get<double>();
+  row.ratio_high = json.at("ratio_interval").at(1).get<double>();
+  row.sure_low = json.at("ratio_sure_interval").at(0).get<double>();
+  row.sure_high = json.at("ratio_sure_interval").at(1).get<double>();
+  row.pairs = json.at("pairs").get<std::uint32_t>();
   row.gpu_bytes = json.at("gpu_bytes").get<std::uint64_t>();
+  row.picture = json.at("picture").get<std::string>();
+  row.no_effect = json.at("no_effect").get<bool>();
   row.on_front = json.at("front").get<bool>();
   return row;
+}
+
+Json json_of(const FrameCost& frame) {
+  Json modules = Json::array();
+  for (const ModuleCost& cost : frame.modules) modules.push_back({cost.module, cost.cpu_ms, cost.gpu_ms});
+  return {{"ms", {frame.cpu_ms, frame.gpu_ms, frame.processor_ms}}, {"modules", std::move(modules)}};
+}
+
+FrameCost frame_of(const Json& json) {
+  const Json& ms = json.at("ms");
+  FrameCost frame = {ms.at(0).get<double>(), ms.at(1).get<double>(), ms.at(2).get<double>(), {}};
+  for (const Json& cost : json.at("modules"))
+    frame.modules.push_back({cost.at(0).get<std::string>(), cost.at(1).get<double>(), cost.at(2).get<double>()});
+  return frame;
 }
 
 Json json_of(const LedgerHeader& header) {
@@ -89,6 +117,7 @@ Json json_of(const LedgerHeader& header) {
   json["gloam"] = {{"version", header.version}, {"build", header.build}};
   json["quick"] = header.quick;
   json["frames"] = header.frames;
+  json["clock"] = header.clock;
   json["reference_samples"] = header.samples;
   return json;
 }
@@ -110,6 +139,7 @@ LedgerHeader header_of(const Json& json) {
   header.build = json.at("gloam").at("build").get<std::string>();
   header.quick = json.at("quick").get<bool>();
   header.frames = json.at("frames").get<std::uint32_t>();
+  header.clock = json.at("clock").get<std::string>();
   header.samples = json.at("reference_samples").get<std::uint32_t>();
   return header;
 }
@@ -128,9 +158,19 @@ std::string dump(const Json& json, int indent) { return json.dump(indent, ' ', f
 
 }  // namespace
 
-std::string row_json(const LedgerRow& row) { return dump(json_of(row), -1); }
+std::string row_json(const MeasuredRow& measured) {
+  Json json = {{"row", json_of(measured.row)}, {"default_frames", Json::array()}};
+  for (const FrameCost& frame : measured.standard) json["default_frames"].push_back(json_of(frame));
+  return dump(json, -1);
+}
 
-Result<LedgerRow> parse_row_json(std::string_view text) { return parse(text, "row of a ledger", row_of); }
+Result<MeasuredRow> parse_row_json(std::string_view text) {
+  return parse(text, "row of a ledger", [](const Json& json) {
+    MeasuredRow measured = {.row = row_of(json.at("row"))};
+    for (const Json& frame : json.at("default_frames")) measured.standard.push_back(frame_of(frame));
+    return measured;
+  });
+}
 
 std::string ledger_json(const Ledger& ledger) {
   Json json = json_of(ledger.header);

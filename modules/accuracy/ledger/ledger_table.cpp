@@ -24,9 +24,10 @@ std::string error_text(const LedgerRow& row, const double* value) {
 }
 
 Line line_of(const LedgerRow& row) {
-  return {!row.wrong.empty() ? "!"
-          : row.on_front     ? "*"
-                             : "",
+  return {!row.wrong.empty()                 ? "!"
+          : row.on_front                     ? "*"
+          : row.no_effect && !row.is_default ? "="
+                                             : "",
           row.knob,
           row.value + (row.is_default ? " (default)" : ""),
           row.counted ? formatted("%.3f", row.counted->value) : "",
@@ -36,7 +37,7 @@ Line line_of(const LedgerRow& row) {
           row.temporal ? formatted("%.6f", row.temporal->mean) : "",
           formatted("%.3f", row.ms.median_ms),
           formatted("%.3f-%.3f", row.ms.p10_ms, row.ms.p90_ms),
-          formatted("%.2f", row.ratio),
+          row.is_default ? std::string("1") : formatted("%.2f (%.2f-%.2f)", row.ratio, row.ratio_low, row.ratio_high),
           formatted("%.3f+%.3f", row.module_cpu_ms, row.module_gpu_ms),
           formatted("%.1f", static_cast<double>(row.gpu_bytes) / (1024.0 * 1024.0))};
 }
@@ -56,8 +57,9 @@ std::string head(const LedgerHeader& header) {
   if (!header.camera.empty()) text += ", camera " + header.camera;
   text += formatted(", time %g s\n", header.time_s);
   text += header.device + ", " + header.driver + "; gloam " + header.version + " (" + header.build + ")\n";
+  text += "times: " + header.clock + "\n";
   if (header.quick)
-    text += formatted("quick: %ux%u, %u frames a value, %u reference samples: errors and times are noisier\n",
+    text += formatted("quick: %ux%u, at most %u frames a value, %u reference samples: errors and times are noisier\n",
                       header.width, header.height, header.frames, header.samples);
   return text;
 }
@@ -78,11 +80,36 @@ std::string judgements(const std::vector<LedgerRow>& rows) {
   return text;
 }
 
+/// Whether all values of a knob are without effect, so that its rows are folded into one line.
+bool changes_nothing(const Ledger& ledger, std::string_view knob) {
+  std::size_t values = 0;
+  for (const LedgerRow& row : ledger.rows) {
+    if (row.knob != knob) continue;
+    if (!row.no_effect) return false;
+    ++values;
+  }
+  return values > 1;
+}
+
+/// A line for each knob that changes nothing.
+std::string without_effect(const Ledger& ledger) {
+  std::string text;
+  std::string_view last;
+  for (const LedgerRow& row : ledger.rows) {
+    if (row.knob == last || !changes_nothing(ledger, row.knob)) continue;
+    last = row.knob;
+    text +=
+        row.knob + ": no effect here: the pictures of all values are equal, and no difference in time is significant\n";
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string ledger_table(const Ledger& ledger) {
   std::vector<Line> lines = {kTitles};
-  for (const LedgerRow& row : ledger.rows) lines.push_back(line_of(row));
+  for (const LedgerRow& row : ledger.rows)
+    if (!changes_nothing(ledger, row.knob)) lines.push_back(line_of(row));
   const bool counts = std::ranges::any_of(ledger.rows, [](const LedgerRow& row) { return row.counted.has_value(); });
   if (!counts) lines.front()[kCountedColumn].clear();
   const bool moves = std::ranges::any_of(ledger.rows, [](const LedgerRow& row) { return row.temporal.has_value(); });
@@ -94,11 +121,12 @@ std::string ledger_table(const Ledger& ledger) {
   std::string text = head(ledger.header);
   for (const Line& line : lines) text += aligned(line, widths);
   text += judgements(ledger.rows);
+  text += without_effect(ledger);
   for (const SkippedKnob& skipped : ledger.skipped) text += skipped.knob + ": not measured: " + skipped.reason + "\n";
   return text +
-         "* no other value of the knob is as cheap and as right; RMSE in cd/m²; ms is CPU and GPU work of a frame, "
-         "module CPU+GPU "
-         "that of the knob's module alone\n";
+         "* no other value of the knob is as cheap and as right; = the default's picture and time; ratio to the "
+         "default's time, with its 95 % interval; RMSE in cd/m²; module CPU+GPU: wall time of the knob's module "
+         "alone\n";
 }
 
 }  // namespace gloam

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "engine/core/result.h"
-#include "modules/accuracy/outputs.h"
+#include "modules/accuracy/ledger/row_json.h"
 
 namespace gloam {
 
@@ -17,8 +17,8 @@ class MeasurementStore {
   explicit MeasurementStore(std::string folder) : folder_(std::move(folder)) {}
 
   /// None if the file is absent, damaged or of another identity.
-  [[nodiscard]] std::optional<LedgerRow> load(const std::string& identity) const;
-  [[nodiscard]] Status save(const std::string& identity, const LedgerRow& row) const;
+  [[nodiscard]] std::optional<MeasuredRow> load(const std::string& identity) const;
+  [[nodiscard]] Status save(const std::string& identity, const MeasuredRow& row) const;
   [[nodiscard]] std::string path_of(const std::string& identity) const;
 
  private:

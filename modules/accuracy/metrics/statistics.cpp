@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <random>
 
 #include "engine/core/assert.h"
 
@@ -21,6 +22,21 @@ double quantile(std::vector<double>& values, double fraction) {
   if (weight == 0.0) return *at;
   const double next = *std::min_element(at + 1, values.end());
   return *at + (next - *at) * weight;
+}
+
+Interval median_interval(std::span<const double> values, double probability) {
+  GLOAM_ASSERT(!values.empty(), "a median is of at least one value");
+  constexpr std::size_t kResamples = 1000;
+  std::mt19937 random(1);
+  std::vector<double> resample(values.size());
+  std::vector<double> medians;
+  medians.reserve(kResamples);
+  for (std::size_t i = 0; i < kResamples; ++i) {
+    for (double& value : resample) value = values[random() % values.size()];
+    medians.push_back(quantile(resample, 0.5));
+  }
+  const double outside = 0.5 * (1.0 - probability);
+  return {.low = quantile(medians, outside), .high = quantile(medians, 1.0 - outside)};
 }
 
 ErrorStatistics statistics_of(std::span<const float> errors) {

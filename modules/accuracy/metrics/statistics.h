@@ -21,4 +21,15 @@ struct ErrorStatistics {
 /// reordered.
 [[nodiscard]] double quantile(std::vector<double>& values, double fraction);
 
+/// Where a value lies with some probability.
+struct Interval {
+  double low = 0.0;
+  double high = 0.0;
+  bool operator==(const Interval&) const = default;
+};
+
+/// Interval of the median, by the bootstrap: the middle share, `probability`, of the medians of 1000 resamples. The
+/// same values always give the same interval. `values`: not empty.
+[[nodiscard]] Interval median_interval(std::span<const double> values, double probability = 0.95);
+
 }  // namespace gloam

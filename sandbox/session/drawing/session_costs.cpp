@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "engine/core/processor_time.h"
 #include "sandbox/session/drawing/frame_tracing.h"
 
 namespace gloam {
@@ -49,10 +50,15 @@ std::vector<MeasureInfo> SessionCosts::measures() const {
 
 Result<FrameCost> SessionCosts::draw(std::int32_t index) {
   session_.set_clock(options_.time_s + index * options_.dt_s, options_.dt_s);
+  const double begin_ms = processor_time_ms();
   const auto sample = session_.render_frame(request_);
   if (!sample) return sample.error();
   index_ = index;
-  return FrameCost{.cpu_ms = sample->report.cpu_ms, .gpu_ms = sample->report.gpu_ms, .modules = module_costs(*sample)};
+  FrameCost cost = {
+      .cpu_ms = sample->report.cpu_ms, .gpu_ms = sample->report.gpu_ms, .modules = module_costs(*sample)};
+  if (session_.device->info().type == gpu::DeviceType::cpu)
+    cost.processor_ms = (processor_time_ms() - begin_ms) / usable_cores();
+  return cost;
 }
 
 Result<std::uint64_t> SessionCosts::gpu_bytes() {

@@ -11,7 +11,8 @@
 
 namespace gloam {
 
-/// Draws a session's frames for the cost ledger. Frame `index` is at time --time + index · --dt.
+/// Draws a session's frames for the cost ledger. Frame `index` is at time --time + index · --dt. On a device that is a
+/// processor, a frame's time is processor time of the process, divided by the cores: other processes hardly change it.
 class SessionCosts final : public CostSubject {
  public:
   /// session and options must outlive it.

@@ -6,7 +6,7 @@
 #include <random>
 #include <string>
 
-#include "modules/accuracy/outputs.h"
+#include "modules/accuracy/ledger/row_json.h"
 
 namespace gloam::test {
 
@@ -27,13 +27,29 @@ inline LedgerRow full_row(std::uint32_t seed = 1) {
   row.psnr_db = number(random) * 60.0;
   row.temporal = ErrorPair{number(random), number(random)};
   row.ms = {number(random) * 10.0, number(random), number(random) * 100.0};
+  row.wall_ms = number(random);
   row.cpu_ms = number(random);
   row.gpu_ms = number(random);
   row.module_cpu_ms = number(random);
   row.module_gpu_ms = number(random);
   row.ratio = number(random) * 2.0;
+  row.ratio_low = number(random);
+  row.ratio_high = number(random) * 3.0;
+  row.sure_low = number(random);
+  row.sure_high = number(random) * 4.0;
+  row.pairs = seed + 7;
+  row.picture = "a hash, " + std::to_string(seed);
+  row.no_effect = seed % 3 == 1;
   row.gpu_bytes = 0x1234567890abcull + seed;
   row.on_front = seed % 2 == 1;
+  return row;
+}
+
+/// full_row() beside frames of the default.
+inline MeasuredRow measured(std::uint32_t seed = 1) {
+  MeasuredRow row = {.row = full_row(seed), .standard = {}};
+  for (std::uint32_t frame = 0; frame < seed; ++frame)
+    row.standard.push_back({0.1 * frame, 1.0 / 3.0, 1e-9 * seed, {{"fog", 0.7, 1e300}, {"lights", 0.0, 2.0}}});
   return row;
 }
 
@@ -56,6 +72,7 @@ inline Ledger full_ledger() {
                    .subgroup_size = 8,
                    .width = 320,
                    .height = 180,
+                   .clock = "a clock, \"on the wall\"",
                    .version = "0.1.0",
                    .build = "fedcba9876543210",
                    .quick = true,

@@ -16,7 +16,7 @@ namespace {
 
 using test::bare_row;
 using test::full_ledger;
-using test::full_row;
+using test::measured;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -31,12 +31,12 @@ TEST(ledger_json, reads_back_what_it_wrote) {
 
 TEST(ledger_json, reads_back_rows_one_by_one) {
   for (std::uint32_t seed = 1; seed < 50; ++seed) {
-    const auto read = parse_row_json(row_json(full_row(seed)));
+    const auto read = parse_row_json(row_json(measured(seed)));
     ASSERT_TRUE(read.ok()) << read.error().message;
-    EXPECT_EQ(*read, full_row(seed));
+    EXPECT_EQ(*read, measured(seed));
   }
-  EXPECT_EQ(*parse_row_json(row_json(bare_row())), bare_row());
-  EXPECT_THAT(row_json(full_row()), Not(HasSubstr("\n")));
+  EXPECT_EQ(parse_row_json(row_json({.row = bare_row(), .standard = {}}))->row, bare_row());
+  EXPECT_THAT(row_json(measured()), Not(HasSubstr("\n")));
 }
 
 TEST(ledger_json, has_what_scripts_look_for) {
@@ -62,7 +62,7 @@ TEST(ledger_json, says_what_is_wrong_with_a_text) {
 }
 
 TEST(ledger_json, survives_cutting_at_every_byte) {
-  const std::string text = row_json(full_row());
+  const std::string text = row_json(measured());
   for (std::size_t size = 0; size < text.size(); ++size)
     EXPECT_FALSE(parse_row_json(text.substr(0, size)).ok()) << size;
 }
@@ -134,6 +134,12 @@ TEST(ledger_csv, reads_back_what_it_wrote) {
     expect_number("module_cpu_ms", row.module_cpu_ms);
     expect_number("module_gpu_ms", row.module_gpu_ms);
     expect_number("ratio", row.ratio);
+    expect_number("ratio_low", row.ratio_low);
+    expect_number("ratio_high", row.ratio_high);
+    expect_number("wall_ms", row.wall_ms);
+    EXPECT_EQ(cell("pairs"), std::to_string(row.pairs));
+    EXPECT_EQ(cell("picture"), row.picture);
+    EXPECT_EQ(cell("no_effect"), row.no_effect ? "1" : "0");
   }
 }
 
@@ -147,7 +153,7 @@ TEST(ledger_table, has_a_line_a_row_and_marks_the_front) {
   EXPECT_THAT(table, HasSubstr("< noise"));
   EXPECT_THAT(table, HasSubstr("lighting.tone_map: no reference"));
   EXPECT_THAT(table, HasSubstr("grass.lod: not measured: the scene does not call for grass"));
-  EXPECT_THAT(table, HasSubstr("quick: 320x180, 5 frames a value, 64 reference samples"));
+  EXPECT_THAT(table, HasSubstr("quick: 320x180, at most 5 frames a value, 64 reference samples"));
   ledger.header.quick = false;
   EXPECT_THAT(ledger_table(ledger), Not(HasSubstr("quick")));
 }

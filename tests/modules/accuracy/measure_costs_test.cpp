@@ -56,7 +56,7 @@ class FakeSubject final : public CostSubject {
     index_ = index;
     if (fail_after > 0 && frames_drawn > fail_after) return Error{ErrorKind::failed, "the device is lost"};
     counted_frames += knobs_.value(kCount) ? 1 : 0;
-    const double gpu_ms = knobs_.value(kSamples);
+    const double gpu_ms = knobs_.value(kSamples) + slower_by * frames_drawn;
     return FrameCost{.cpu_ms = 1.0, .gpu_ms = gpu_ms, .modules = {{"other", 7.0, 7.0}, {"fake", 0.5, gpu_ms / 2.0}}};
   }
   [[nodiscard]] Result<std::uint64_t> gpu_bytes() override { return std::uint64_t{knobs_.value(kSamples)} * 100; }
@@ -83,6 +83,7 @@ class FakeSubject final : public CostSubject {
   int references_drawn = 0;
   std::vector<std::int32_t> indices;  ///< of all drawn frames
   int fail_after = 0;
+  double slower_by = 0.0;  ///< ms by which each frame is slower than the one before
   std::vector<ReferenceInfo> references_;
   std::vector<MeasureInfo> measures_;
   std::function<Result<FramePictures>(const FramePictures&, std::uint32_t)> reference;
@@ -148,6 +149,47 @@ TEST_F(MeasureCosts, holds_every_value_against_the_most_exact_one) {
   EXPECT_EQ(ledger.rows[3].flip->mean, 0.0);
 }
 
+TEST_F(MeasureCosts, the_default_has_one_time_and_one_memory) {
+  subject_.slower_by = 0.25;  // each frame slower than the one before
+  request_.knobs = {"fake.samples", "fake.look", "fake.count"};
+  const Ledger ledger = measure();
+  for (const LedgerRow& row : ledger.rows) {
+    if (row.is_default) {
+      EXPECT_EQ(row.ms, ledger.rows[1].ms);
+      EXPECT_EQ(row.pairs, 5u * 5u) << "of all rows but its own";
+      EXPECT_EQ(row.gpu_bytes, ledger.rows[1].gpu_bytes);
+    } else {
+      EXPECT_EQ(row.pairs, 5u);
+      EXPECT_NEAR(row.ms.median_ms, row.ratio * ledger.rows[1].ms.median_ms, 1e-9);
+    }
+  }
+  const Ledger again = measure();
+  EXPECT_EQ(progress_.measured, 0);
+  EXPECT_EQ(again.rows, ledger.rows) << "also when the rows were measured before";
+  // A knob that the user has set to another value has a default of its own.
+  ASSERT_TRUE(subject_.knobs().set("fake.samples", "16").ok());
+  const Ledger other = measure();
+  std::vector<TimeSummary> defaults;
+  for (const LedgerRow& row : other.rows)
+    if (row.is_default) defaults.push_back(row.ms);
+  ASSERT_EQ(defaults.size(), 3u);
+  EXPECT_NE(defaults[0], defaults[1]);
+  EXPECT_EQ(defaults[1], defaults[2]);
+}
+
+TEST_F(MeasureCosts, a_knob_that_changes_nothing_has_no_effect) {
+  request_.knobs = {"fake.count"};
+  request_.header.frames = 8;
+  Ledger ledger = measure();
+  ASSERT_EQ(ledger.rows.size(), 2u);
+  EXPECT_TRUE(ledger.rows[0].no_effect && ledger.rows[1].no_effect);
+  EXPECT_THAT(ledger_table(ledger), HasSubstr("fake.count: no effect here"));
+  EXPECT_THAT(ledger_table(ledger), Not(HasSubstr("fake.count  ")));
+  request_.knobs = {"fake.samples"};
+  ledger = measure();
+  for (const LedgerRow& row : ledger.rows) EXPECT_EQ(row.no_effect, row.is_default) << row.value;
+}
+
 TEST_F(MeasureCosts, leaves_the_users_value_and_tells_progress) {
   ASSERT_TRUE(subject_.knobs().set("fake.samples", "7").ok());
   static_cast<void>(measure());
@@ -166,7 +208,7 @@ TEST_F(MeasureCosts, time_goes_on_up_to_a_picture_and_while_frames_are_timed) {
       << "the reference, the first value, and its times";
   std::size_t repeated = 0;
   for (std::size_t i = 1; i < drawn.size(); ++i) repeated += drawn[i] == drawn[i - 1] ? 1 : 0;
-  EXPECT_EQ(repeated, 4u) << "where the times of each of the four values begin";
+  EXPECT_EQ(repeated, 3u) << "where the times of each value but the default begin";
 }
 
 TEST_F(MeasureCosts, a_second_run_draws_nothing) {
@@ -179,7 +221,7 @@ TEST_F(MeasureCosts, a_second_run_draws_nothing) {
 }
 
 TEST_F(MeasureCosts, goes_on_where_it_was_cut_off) {
-  subject_.fail_after = 70;  // in the third row
+  subject_.fail_after = 40;  // in the third row
   const auto broken = measure_costs(request_, subject_, progress_);
   ASSERT_FALSE(broken.ok());
   EXPECT_THAT(broken.error().message, HasSubstr("fake.samples=16: the device is lost"));

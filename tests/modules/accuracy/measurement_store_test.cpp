@@ -17,7 +17,7 @@
 namespace gloam {
 namespace {
 
-using test::full_row;
+using test::measured;
 using test::TestFolder;
 using ::testing::HasSubstr;
 
@@ -32,19 +32,19 @@ TEST(measurement_store, finds_what_was_saved_under_the_same_identity_alone) {
   const TestFolder folder;
   const MeasurementStore store(folder.path() + "/made/on/demand");
   EXPECT_FALSE(store.load("a"));
-  ASSERT_TRUE(store.save("a", full_row(1)).ok());
-  ASSERT_TRUE(store.save("b", full_row(2)).ok());
-  EXPECT_EQ(store.load("a"), full_row(1));
-  EXPECT_EQ(store.load("b"), full_row(2));
+  ASSERT_TRUE(store.save("a", measured(1)).ok());
+  ASSERT_TRUE(store.save("b", measured(2)).ok());
+  EXPECT_EQ(store.load("a"), measured(1));
+  EXPECT_EQ(store.load("b"), measured(2));
   EXPECT_FALSE(store.load("c"));
-  ASSERT_TRUE(store.save("a", full_row(3)).ok());
-  EXPECT_EQ(store.load("a"), full_row(3));
+  ASSERT_TRUE(store.save("a", measured(3)).ok());
+  EXPECT_EQ(store.load("a"), measured(3));
 }
 
 TEST(measurement_store, does_not_take_a_file_for_one_of_another_identity) {
   const TestFolder folder;
   const MeasurementStore store(folder.path());
-  ASSERT_TRUE(store.save("a", full_row()).ok());
+  ASSERT_TRUE(store.save("a", measured()).ok());
   std::filesystem::copy_file(store.path_of("a"), store.path_of("b"));
   EXPECT_FALSE(store.load("b"));
 }
@@ -52,7 +52,7 @@ TEST(measurement_store, does_not_take_a_file_for_one_of_another_identity) {
 TEST(measurement_store, ignores_damaged_files_and_replaces_them) {
   const TestFolder folder;
   const MeasurementStore store(folder.path());
-  ASSERT_TRUE(store.save("what it is of", full_row()).ok());
+  ASSERT_TRUE(store.save("what it is of", measured()).ok());
   const std::string path = store.path_of("what it is of");
   const std::string whole = bytes_of(path);
   for (std::size_t at = 0; at < whole.size(); at += 3) {
@@ -65,8 +65,8 @@ TEST(measurement_store, ignores_damaged_files_and_replaces_them) {
   }
   put(path, whole + " ");
   EXPECT_FALSE(store.load("what it is of"));
-  ASSERT_TRUE(store.save("what it is of", full_row()).ok());
-  EXPECT_EQ(store.load("what it is of"), full_row());
+  ASSERT_TRUE(store.save("what it is of", measured()).ok());
+  EXPECT_EQ(store.load("what it is of"), measured());
 }
 
 TEST(measurement_store, ignores_what_a_killed_writer_left) {
@@ -74,14 +74,14 @@ TEST(measurement_store, ignores_what_a_killed_writer_left) {
   const MeasurementStore store(folder.path());
   put(store.path_of("a") + ".partial", "half a r");
   EXPECT_FALSE(store.load("a"));
-  ASSERT_TRUE(store.save("a", full_row()).ok());
-  EXPECT_EQ(store.load("a"), full_row());
+  ASSERT_TRUE(store.save("a", measured()).ok());
+  EXPECT_EQ(store.load("a"), measured());
 }
 
 TEST(measurement_store, says_where_it_cannot_write) {
   const TestFolder folder;
   put(folder.path() + "/file", "");
-  const Status status = MeasurementStore(folder.path() + "/file").save("a", full_row());
+  const Status status = MeasurementStore(folder.path() + "/file").save("a", measured());
   ASSERT_FALSE(status.ok());
   EXPECT_EQ(status.error().kind, ErrorKind::failed);
   EXPECT_THAT(status.error().message, HasSubstr(folder.path() + "/file"));

@@ -9,10 +9,15 @@
 namespace gloam {
 namespace {
 
-LedgerRow point(const std::string& knob, double error, double ratio) {
+/// `spread`: of the ratio's interval, to both sides.
+LedgerRow point(const std::string& knob, double error, double ratio, double spread = 0.0) {
   LedgerRow row = {.knob = knob};
   row.flip = ErrorPair{.mean = error};
   row.ratio = ratio;
+  row.ratio_low = ratio - spread;
+  row.ratio_high = ratio + spread;
+  row.sure_low = ratio - 1.5 * spread;
+  row.sure_high = ratio + 1.5 * spread;
   return row;
 }
 
@@ -48,6 +53,43 @@ TEST(pareto_front, takes_errors_below_the_noise_as_equal) {
   std::vector<LedgerRow> rows = {point("a", 0.001, 5.0), point("a", 0.003, 4.0)};
   for (LedgerRow& row : rows) row.reference_noise = 0.01;
   EXPECT_EQ(front_of(rows), (std::vector<bool>{false, true}));
+  // More right by less than the noise, as cheap: neither makes the other pointless.
+  rows = {point("a", 0.020, 1.0), point("a", 0.025, 1.0)};
+  for (LedgerRow& row : rows) row.reference_noise = 0.01;
+  EXPECT_EQ(front_of(rows), (std::vector<bool>{true, true}));
+}
+
+TEST(pareto_front, differences_in_time_inside_the_intervals_are_chance) {
+  // The dearer one by chance is the more right one: it alone is left.
+  EXPECT_EQ(front_of({point("a", 0.1, 1.00, 0.03), point("a", 0.2, 0.98, 0.03)}), (std::vector<bool>{true, false}));
+  EXPECT_EQ(front_of({point("a", 0.1, 1.00, 0.03), point("a", 0.2, 0.90, 0.03)}), (std::vector<bool>{true, true}));
+}
+
+TEST(pareto_front, of_equal_pictures_it_keeps_the_significantly_cheaper_or_the_default) {
+  std::vector<LedgerRow> rows = {point("a", 0.1, 0.98, 0.03), point("a", 0.1, 1.0), point("a", 0.0, 2.0)};
+  rows[0].picture = rows[1].picture = "same";
+  rows[2].picture = "other";
+  rows[1].is_default = true;
+  EXPECT_EQ(front_of(rows), (std::vector<bool>{false, true, true}));
+  rows[0] = point("a", 0.1, 0.9, 0.03);
+  rows[0].picture = "same";
+  EXPECT_EQ(front_of(rows), (std::vector<bool>{true, false, true}));
+}
+
+TEST(pareto_front, has_no_value_of_a_knob_that_changes_nothing) {
+  std::vector<LedgerRow> rows = {point("a", 0.1, 0.98, 0.03), point("a", 0.1, 1.0), point("a", 0.1, 1.02, 0.04)};
+  for (LedgerRow& row : rows) row.picture = "same";
+  rows[1].is_default = true;
+  EXPECT_EQ(front_of(rows), (std::vector<bool>{false, false, false}));
+  mark_pareto_front(rows);
+  for (const LedgerRow& row : rows) EXPECT_TRUE(row.no_effect);
+  rows[0].ratio_high = 0.99;
+  mark_pareto_front(rows);
+  EXPECT_TRUE(rows[0].no_effect) << "by chance";
+  rows[0].sure_high = 0.99;
+  mark_pareto_front(rows);
+  EXPECT_TRUE(rows[0].on_front);
+  EXPECT_FALSE(rows[0].no_effect);
 }
 
 TEST(pareto_front, leaves_out_rows_that_nobody_judged) {

@@ -57,5 +57,29 @@ TEST(statistics, tell_mean_percentile_and_ends) {
   EXPECT_DOUBLE_EQ(statistics.max, 100.0);
 }
 
+TEST(statistics, the_interval_of_a_median_holds_the_true_median_as_often_as_it_says) {
+  std::mt19937 random(11);
+  std::lognormal_distribution<double> skewed(0.0, 0.3);  // median 1
+  for (const std::size_t count : {8u, 40u}) {
+    int held = 0;
+    constexpr int kRounds = 400;
+    for (int round = 0; round < kRounds; ++round) {
+      std::vector<double> values(count);
+      for (double& value : values) value = skewed(random);
+      const Interval interval = median_interval(values);
+      held += interval.low <= 1.0 && 1.0 <= interval.high ? 1 : 0;
+    }
+    EXPECT_GT(held, kRounds * 91 / 100) << count;
+    EXPECT_LT(held, kRounds * 99 / 100) << count << ": wider than need be";
+  }
+}
+
+TEST(statistics, the_interval_of_a_median_is_of_the_values_alone) {
+  const std::vector<double> values = {3.0, 1.0, 2.0, 5.0, 4.0};
+  EXPECT_EQ(median_interval(values), median_interval(values));
+  EXPECT_EQ(median_interval(std::vector<double>{7.0}), (Interval{7.0, 7.0}));
+  EXPECT_EQ(median_interval(std::vector<double>(9, 2.5)), (Interval{2.5, 2.5}));
+}
+
 }  // namespace
 }  // namespace gloam

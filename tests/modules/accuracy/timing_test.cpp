@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <random>
 #include <string>
 
 #include "tests/support/expect_assert.h"
@@ -38,7 +40,7 @@ class FakeMachine {
 
 TEST(timing, alternates_and_leaves_warm_up_out) {
   FakeMachine machine;
-  const auto times = time_alternating({.pairs = 3, .first_warm_up = 2, .warm_up = 1}, machine.runner());
+  const auto times = time_alternating({.most_pairs = 3, .first_warm_up = 2, .warm_up = 1}, machine.runner());
   ASSERT_TRUE(times.ok());
   EXPECT_EQ(machine.sides(),
             "AABB"
@@ -51,10 +53,54 @@ TEST(timing, alternates_and_leaves_warm_up_out) {
   for (const FrameCost& cost : times->candidate) EXPECT_DOUBLE_EQ(cost.ms(), 20.0);
 }
 
-TEST(timing, measures_twenty_frames_unless_told_otherwise) {
-  FakeMachine machine;
-  EXPECT_EQ(time_alternating({}, machine.runner())->candidate.size(), 20u);
-  EXPECT_EQ(time_alternating({.pairs = kQuickFrames}, machine.runner())->candidate.size(), 5u);
+/// Runs of two equal sides whose frames take 10 ms, times exp(noise · a normal number).
+RunFrame noisy(double noise, std::mt19937& random) {
+  return [noise, &random](TimedSide) -> Result<FrameCost> {
+    std::normal_distribution<double> normal;
+    return FrameCost{.gpu_ms = 10.0 * std::exp(noise * normal(random))};
+  };
+}
+
+TEST(timing, measures_until_the_ratio_is_known_well_enough) {
+  std::mt19937 random(3);
+  const auto pairs = [&](double noise, double wanted) {
+    return time_alternating({.most_pairs = 200, .wanted = wanted}, noisy(noise, random))->candidate.size();
+  };
+  EXPECT_EQ(pairs(0.0, 0.02), 12u) << "the fewest";
+  EXPECT_EQ(pairs(0.5, 0.02), 200u) << "the most";
+  const std::size_t some = pairs(0.05, 0.02);
+  EXPECT_GT(some, 16u);
+  EXPECT_LT(some, 200u);
+  EXPECT_LT(pairs(0.05, 0.06), some);
+}
+
+TEST(timing, equal_sides_are_apart_hardly_ever) {
+  std::mt19937 random(4);
+  int apart = 0, surely_apart = 0;
+  constexpr int kRounds = 200;
+  for (int round = 0; round < kRounds; ++round) {
+    const auto times = time_alternating({.most_pairs = 40, .wanted = 0.06}, noisy(0.1, random));
+    const Interval interval = summarize_times(*times).ratio_interval;
+    apart += interval.low > 1.0 || interval.high < 1.0 ? 1 : 0;
+    const Interval sure = summarize_times(*times).sure_interval;
+    surely_apart += sure.low > 1.0 || sure.high < 1.0 ? 1 : 0;
+  }
+  // 5 % of 95 % intervals; stopping at the first narrow one adds some.
+  EXPECT_LE(apart, 24);
+  EXPECT_LE(surely_apart, 2);
+}
+
+TEST(timing, a_busy_machine_does_not_change_processor_time) {
+  AlternatingTimes times;
+  for (int i = 0; i < 8; ++i) {
+    times.standard.push_back({.cpu_ms = 1.0, .gpu_ms = 4.0 * (1 + i % 3), .processor_ms = 4.0});
+    times.candidate.push_back({.cpu_ms = 1.0, .gpu_ms = 9.0 * (1 + i % 2), .processor_ms = 6.0});
+  }
+  const TimedValue timed = summarize_times(times);
+  EXPECT_DOUBLE_EQ(timed.ratio, 1.5);
+  EXPECT_EQ(timed.ratio_interval, (Interval{1.5, 1.5}));
+  EXPECT_DOUBLE_EQ(timed.ms.median_ms, 6.0);
+  EXPECT_DOUBLE_EQ(timed.wall_ms, 14.5) << "beside it";
 }
 
 TEST(timing, tells_median_spread_and_ratio) {
@@ -66,11 +112,12 @@ TEST(timing, tells_median_spread_and_ratio) {
   EXPECT_DOUBLE_EQ(timed.cpu_ms, 5.0);
   EXPECT_DOUBLE_EQ(timed.gpu_ms, 15.0);
   EXPECT_DOUBLE_EQ(timed.ratio, 2.0);
+  EXPECT_EQ(timed.ratio_interval, (Interval{2.0, 2.0}));
 }
 
 TEST(timing, a_machine_that_slows_down_hardly_moves_the_ratio) {
   FakeMachine drifting(0.05);
-  const TimedValue timed = summarize_times(*time_alternating({}, drifting.runner()));
+  const TimedValue timed = summarize_times(*time_alternating({.most_pairs = 20, .wanted = 0.0}, drifting.runner()));
   EXPECT_GT(timed.ms.p90_ms, timed.ms.p10_ms + 2.0);
   // The ratio at the middle frame of the run. Timing one side after the other would give more than 2.
   const double middle = 0.05 * 46.0;
@@ -110,7 +157,7 @@ TEST(timing, stops_at_the_first_frame_that_fails) {
 
 TEST(timing, needs_a_frame) {
   FakeMachine machine;
-  EXPECT_ASSERT((void)time_alternating({.pairs = 0}, machine.runner()), "at least one frame");
+  EXPECT_ASSERT((void)time_alternating({.most_pairs = 0}, machine.runner()), "at least one frame");
   EXPECT_ASSERT((void)summarize_times({}), "at least one frame");
 }
 
