@@ -10,7 +10,8 @@
 
 namespace gloam {
 
-/// Grass grows on the upward-facing triangles of the entity's mesh.
+/// Grass grows on the upward-facing triangles of the entity's mesh. Blades are in metres; SceneUnits says how many of
+/// them a unit of the mesh is.
 struct GrassSurface {
   float density = 0.0f;  ///< blades/m²
   std::uint32_t seed = 1;
@@ -23,7 +24,7 @@ struct GrassSurface {
 enum class ColliderShape : std::uint8_t { none, sphere, capsule, box };
 
 /// An obstacle that moves grass; follows the node's animation. A capsule's height includes its caps and starts at the
-/// node's origin, along +Y.
+/// node's origin, along +Y. Sizes are in units of the node, like those of meshes.
 struct Collider {
   ColliderShape shape = ColliderShape::none;
   float radius_m = 0.5f;
@@ -56,10 +57,11 @@ struct GrassBlade {
 struct GrassMasterTag {};
 struct GrassSlaveTag {};
 
-/// Up to 256 blades that are culled together. The entity has no mesh.
+/// Up to 256 blades that are culled together. The entity has no mesh. Lengths are metres, also the origin: it is a
+/// position in units times SceneUnits::metres_per_unit.
 struct GrassPatch {
   Entity surface = kNoEntity;  ///< entity with the GrassSurface
-  dvec3 origin = dvec3(0.0);   ///< world position of the middle of `roots`
+  dvec3 origin = dvec3(0.0);   ///< world position of the middle of `roots`, metres
   dquat turn =
       dquat(1.0, 0.0, 0.0, 0.0);  ///< from the patch's axes to the world's: the ground has turned since it grew
   Aabb roots;                     ///< of the blades' roots, relative to the origin, along the patch's axes

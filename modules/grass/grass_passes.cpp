@@ -12,6 +12,7 @@
 #include "engine/math/finite.h"
 #include "engine/render/sort/radix_sort.h"
 #include "engine/render/worlds/world_id.h"
+#include "engine/scene/units.h"
 #include "modules/grass/drawing/draw_blades_passes.h"
 #include "modules/grass/lod/detail.h"
 #include "modules/grass/lod/sort_blades_passes.h"
@@ -56,12 +57,14 @@ GrassInputs upload_patches(FrameBuilder& frame, const GrassField& field, const S
   std::vector<shaders::GrassPatchRow> rows;
   std::vector<shaders::GrassCollider> colliders;
   const std::span<const PlacedCollider> placed = frame.world().resource<GrassColliders>().colliders;
-  const dvec3 wind_at = wind_origin(frame.world());
+  const double metres = metres_per_unit(frame.world());
+  const dvec3 eye = frame.view().position * metres;
+  const dvec3 wind_at = wind_origin(frame.world()) * metres;
   for (const ResidentPatch& resident : stored.patches) {
     const GrassPatch& patch = field.patches[resident.patch];
     shaders::GrassPatchRow row{};
     const GrassPatchMotion& motion = field.motions[resident.patch];
-    row.origin = frame.view().relative(patch.origin);
+    row.origin = vec3(patch.origin - eye);
     row.turn = shader_quaternion(patch.turn);
     row.previous_turn = shader_quaternion(motion.previous_turn);
     row.carried = vec3(motion.carried);
@@ -110,15 +113,16 @@ std::optional<std::uint32_t> groups_of(const FrameBuilder& frame, const GrassKno
   return (feedback->masters + group_masters - 1) / group_masters;
 }
 
-/// Box of the blades that may cast shadows.
-WorldBox casting_box(const GrassField& field, std::span<const VisiblePatch> visible, float cast_distance_m) {
+/// Box of the blades that may cast shadows, in units.
+WorldBox casting_box(const GrassField& field, std::span<const VisiblePatch> visible, float cast_distance_m,
+                     double metres_per_unit) {
   WorldBox box;
   for (const VisiblePatch& one : visible) {
     if (one.nearest_m > cast_distance_m) break;  // nearest first
     const GrassPatch& patch = field.patches[one.patch];
     const Aabb reach = reach_box(patch);
-    box.min = glm::min(box.min, patch.origin + dvec3(reach.min));
-    box.max = glm::max(box.max, patch.origin + dvec3(reach.max));
+    box.min = glm::min(box.min, (patch.origin + dvec3(reach.min)) / metres_per_unit);
+    box.max = glm::max(box.max, (patch.origin + dvec3(reach.max)) / metres_per_unit);
   }
   return box;
 }
@@ -131,7 +135,8 @@ void announce_grass(FrameBuilder& frame) {
   const auto grass = std::make_shared<GrassFrame>();
   frame.put(GrassOnBoard(grass));
   const float cast_distance_m = grass_knobs(frame.knobs()).cast_distance_m;
-  const WorldBox box = casting_box(frame.world().resource<GrassField>(), visible.patches, cast_distance_m);
+  const WorldBox box = casting_box(frame.world().resource<GrassField>(), visible.patches, cast_distance_m,
+                                   metres_per_unit(frame.world()));
   if (visible.cast && box.known()) add_blade_casters(frame, grass, box);
 }
 
@@ -162,7 +167,8 @@ void add_grass_passes(FrameBuilder& frame, GrassWorlds& worlds) {
   inputs.steps = steps_of(world, knobs.iterations);
   const std::optional<std::uint32_t> groups = groups_of(frame, knobs, inputs.group_masters);
   if (!visible.cast) knobs.cast_distance_m = 0.0f;
-  inputs.lod = grass_lod(frame.view(), knobs, visible.range_m, longest_blade(field, stored.patches));
+  inputs.lod =
+      grass_lod(frame.view(), knobs, {visible.range_m, longest_blade(field, stored.patches), metres_per_unit(world)});
   inputs.lod.most_masters = groups ? *groups * inputs.group_masters : ~0u;
   inputs.lod.steps_per_s = static_cast<float>(1.0 / kGrassStep);
   inputs.lod_range = frame.upload_uniform(inputs.lod);

@@ -13,9 +13,11 @@
 #include "engine/render/frame_builder.h"
 #include "engine/render/seen_surfaces.h"
 #include "engine/render/worlds/world_id.h"
+#include "engine/scene/units.h"
 #include "modules/grass/components.h"
 #include "modules/grass/debug/lod_view.h"
 #include "modules/grass/debug/pick.h"
+#include "modules/grass/field/metres.h"
 #include "modules/grass/grass_passes.h"
 #include "modules/grass/keys.h"
 #include "modules/grass/simulation/colliders.h"
@@ -38,7 +40,7 @@ void set_texel_grid(World& world, const GrassField& field) {
   grid->anchor = dvec3(0.0);
   for (const GrassPlanting& planting : field.plantings) {
     if (planting.origins.empty() || !is_finite(planting.origins.front())) continue;
-    grid->anchor = planting.origins.front();
+    grid->anchor = planting.origins.front() / metres_per_unit(world);
     return;
   }
 }
@@ -50,27 +52,30 @@ struct GrassViewSettings {
   PatchCulling culling;
 };
 
-/// The lights that cast shadows and reach the view.
-std::vector<CastingLight> casting_lights_of(const ShadowingLights& lights, const RenderView& view) {
+/// The lights that cast shadows and reach the view. In metres, like the view.
+std::vector<CastingLight> casting_lights_of(const ShadowingLights& lights, const RenderView& view,
+                                            double metres_per_unit) {
   std::vector<CastingLight> found;
   lights.each([&](const Light& light, const WorldTransform& transform, const ShadowCaster* caster) {
     if ((caster != nullptr && !caster->enabled) || !(light.intensity > 0.0f)) return;
-    const CastingLight casting{light.kind == LightKind::directional, dvec3(transform.matrix[3]),
-                               vec3(-glm::normalize(dvec3(transform.matrix[2]))), effective_range(light)};
+    const CastingLight casting{light.kind == LightKind::directional, dvec3(transform.matrix[3]) * metres_per_unit,
+                               vec3(-glm::normalize(dvec3(transform.matrix[2]))),
+                               static_cast<float>(double{effective_range(light)} * metres_per_unit)};
     const Sphere reach{vec3(casting.position - view.position), casting.range_m};
     if (casting.directional || may_intersect(view.frustum, reach)) found.push_back(casting);
   });
   return found;
 }
 
-void grass_patches_system(Resource<const GrassField> field, ViewResource<const RenderView> view,
-                          ViewResource<const GrassViewSettings> settings, ShadowingLights lights,
-                          ViewResource<VisiblePatches> visible, JobExecutor& jobs) {
+void grass_patches_system(Resource<const GrassField> field, Resource<const GrassGrowthSettings> growth,
+                          ViewResource<const RenderView> view, ViewResource<const GrassViewSettings> settings,
+                          ShadowingLights lights, ViewResource<VisiblePatches> visible, JobExecutor& jobs) {
+  const RenderView metric = metric_view(*view, growth->metres_per_unit);
   std::vector<CastingLight> casting;
-  if (settings->culling.cast_distance_m > 0.0f) casting = casting_lights_of(lights, *view);
+  if (settings->culling.cast_distance_m > 0.0f) casting = casting_lights_of(lights, metric, growth->metres_per_unit);
   PatchCulling culling = settings->culling;
   culling.lights = casting;
-  *visible = find_visible_patches(field->patches, *view, culling, jobs);
+  *visible = find_visible_patches(field->patches, metric, culling, jobs);
 }
 
 class GrassModule final : public Module {
@@ -128,6 +133,7 @@ class GrassModule final : public Module {
     GrassGrowthSettings& settings = world.resource<GrassGrowthSettings>();
     settings.slaves_per_master = knobs.slaves_per_master;
     settings.density_scale = static_cast<float>(knobs.density_scale);
+    settings.metres_per_unit = metres_per_unit(world);
   }
   /// Growth has run: makes the entities of a field that was regrown.
   void prepare_view(World& world, ViewId view, const KnobRegistry& registry) const override {

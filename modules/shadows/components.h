@@ -22,12 +22,15 @@ struct CasterVolume {
   dvec3 max = dvec3(0.0);
 };
 
-/// A point of the world that texels of directional lights' maps lie at multiples of their size from; a world resource.
+/// The grid of texels of directional lights' maps; a world resource. Texels lie at multiples of their size from the
+/// anchor, and sizes of maps are rounded in steps that follow from powers of two of the unit.
 /// Shadows of casters about as thin as a texel depend on where texels begin. A module with such casters sets a point
 /// that belongs to its scene, so that the same scene at another place has the same shadows. The point must rest: the
-/// shadows shimmer in the frame in which it moves. Set it before the systems of the view stage run.
+/// shadows shimmer in the frame in which it moves. Set it before the systems of the view stage run. The unit is a metre
+/// (SceneUnits), so that the same scene in other units has the same shadows.
 struct ShadowTexelGrid {
   dvec3 anchor = dvec3(0.0);
+  double unit = 1.0;  ///< > 0; set by the module
 };
 
 /// Least radius of a lamp's ball for is_bulb(), as a share of the lamp's range.

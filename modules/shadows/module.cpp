@@ -10,6 +10,7 @@
 #include "engine/core/once_log.h"
 #include "engine/render/frame_builder.h"
 #include "engine/render/worlds/world_id.h"
+#include "engine/scene/units.h"
 #include "modules/shadows/atlas/view_faces.h"
 #include "modules/shadows/components.h"
 #include "modules/shadows/debug/enclosed_lights.h"
@@ -91,6 +92,7 @@ class ShadowsModule final : public Module {
   }
 
   void prepare_view(World& world, ViewId view, const KnobRegistry& knobs) const override {
+    world.resource<ShadowTexelGrid>().unit = 1.0 / metres_per_unit(world);
     prepare_shadow_view(world, view, shadow_knobs(knobs));
     world.view_resource<ShadowSettings>(view) = shadow_settings(shadow_knobs(knobs));
     // Cookies of lights added after the scene was loaded. The error of a bad file stays in Cookies::faults for the log.

@@ -35,8 +35,9 @@ const Aabb* box_of(const SceneAssets& assets, const MeshInstance& instance) {
 }
 
 CasterBounds bounds_of(std::span<const MeshInstance> instances, std::span<const WorldTransform> transforms,
-                       const SceneAssets& assets) {
+                       const SceneAssets& assets, double unit) {
   CasterBounds bounds;
+  bounds.grid_unit = unit;
   for (std::size_t i = 0; i < instances.size(); ++i) {
     if (instances[i].skin != kNone) continue;
     const Aabb* box = box_of(assets, instances[i]);
@@ -89,9 +90,10 @@ void shadow_bounds_system(ViewResource<const VisibleLights> visible,
   meshes.parallel_chunks(
       jobs, kMeshGrain,
       [&](std::size_t ordinal, std::span<const MeshInstance> instances, std::span<const WorldTransform> transforms) {
-        found[ordinal] = bounds_of(instances, transforms, *assets);
+        found[ordinal] = bounds_of(instances, transforms, *assets, grid->unit);
       });
   CasterBounds all;
+  all.grid_unit = grid->unit;
   for (const CasterBounds& bounds : found) {
     all.grow(bounds.min, bounds.max);
     all.add_sizes(bounds);

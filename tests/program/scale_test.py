@@ -108,6 +108,24 @@ def smoke():
     return scene
 
 
+def lawn(sun=False):
+    """Blades in the wind, shadows of blades, and colliders that lay them flat. They are in metres: gloam.scale."""
+    scene = SceneFile(sky=(0.3, 0.4, 0.6), exposure=3.0)
+    scene.quad(0.7, scene.material((0.3, 0.25, 0.2)), **{"gloam.grass.density": 700, "gloam.grass.height": [0.35, 0.05],
+                                                          "gloam.grass.width": 0.01, "gloam.grass.max_distance": 9.0})
+    if sun:
+        scene.light("directional", rotation=turned(0, -0.9), intensity=30)
+    else:
+        scene.light("point", at=(0.4, 1.4, 0.5), intensity=30, range=6.0)
+    scene.camera((0.2, 0.8, 1.5), turned(0, -0.4))
+    for at, keys in (((2.0, 1.0, -1.0), {"gloam.wind.velocity": [6.0, 0.0, 2.0], "gloam.wind.gust": 0.6}),
+                     ((-0.35, 0.1, 0.0), {"gloam.collider": "sphere", "gloam.collider.radius": 0.25}),
+                     ((0.4, 0.0, 0.1), {"gloam.collider": "box", "gloam.collider.size": [0.3, 0.5, 0.4]}),
+                     ((0.1, 0.0, -0.4), {"gloam.collider": "capsule", "gloam.collider.radius": 0.12, "gloam.collider.height": 0.6})):
+        scene.nodes.append({"translation": list(at), "rotation": [0, 0, 0, 1], "extras": keys})
+    return scene
+
+
 class Scale(ProgramCase):
     def setUp(self):
         super().setUp()
@@ -165,6 +183,19 @@ class Scale(ProgramCase):
 
     def test_particles(self):
         self.same(smoke, "--time", "3", physics=True)
+
+    def test_grass(self):
+        self.same(lawn, "--frames", "20", physics=True)
+
+    def test_grass_in_the_sun(self):
+        self.same(lambda: lawn(sun=True), "--frames", "20", "--dt", "0.05", physics=True, places=())
+
+    def test_grass_of_an_orthographic_camera(self):
+        def flat():
+            scene = lawn()
+            scene.cameras[0] = {"type": "orthographic", "orthographic": {"xmag": 0.9, "ymag": 0.6, "znear": 0.05, "zfar": 9.0}}
+            return scene
+        self.same(flat, "--frames", "12", physics=True, places=())
 
     def test_bias_of_rasterisers_and_other_filters(self):
         for setting in ("shadows.bias=hardware", "shadows.filter=pcss", "shadows.depth=d16"):

@@ -10,7 +10,7 @@ import struct
 UP_Y, DOWN = (0.0, 1.0, 0.0), (-math.sqrt(0.5), 0.0, 0.0, math.sqrt(0.5))
 # Keys whose numbers are lengths in units of the scene. Keys of physics (fog, focus) are in metres: see gloam.scale.
 LENGTHS = ("gloam.light.width", "gloam.ibr_proxy.size", "gloam.ibr_room.size", "gloam.cube_probe.size",
-           "gloam.particles.size", "gloam.particles.box")
+           "gloam.particles.size", "gloam.particles.box", "gloam.collider.radius", "gloam.collider.height", "gloam.collider.size")
 
 
 def turned(axis, angle):

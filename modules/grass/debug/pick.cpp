@@ -9,6 +9,7 @@
 
 #include "engine/core/text/formatted.h"
 #include "engine/render/readback/geometry_picture.h"
+#include "engine/scene/units.h"
 #include "modules/grass/reference/slave_pose.h"
 
 namespace gloam {
@@ -103,11 +104,12 @@ std::vector<std::string> grass_pick_lines(const FrameBuilder& frame, const Grass
                                           const Captures& copies) {
   if (!(pixel.depth > 0.0f)) return {};
   const RenderView& view = frame.view();
-  const dvec3 point = view.position + surface_position(view, pixel.x, pixel.y, pixel.depth);
+  const double metres = metres_per_unit(frame.world());
+  const dvec3 point = (view.position + surface_position(view, pixel.x, pixel.y, pixel.depth)) * metres;
   const NearestBlade found = BladeSearch(frame, grass, copies, point).nearest();
   // Blades are widened to about a pixel, so the point may be half a widened blade away from the stem.
-  const double pixel_m =
-      static_cast<double>(grass.lod.pixel_m) * (grass.lod.orthographic != 0 ? 1.0 : glm::length(point - view.position));
+  const double pixel_m = static_cast<double>(grass.lod.pixel_m) *
+                         (grass.lod.orthographic != 0 ? 1.0 : glm::length(point - view.position * metres));
   if (!(found.distance_m < 0.01 + pixel_m)) return {};
   const GrassField& field = frame.world().resource<GrassField>();
   const GrassBlade& blade = field.blades[found.slot];

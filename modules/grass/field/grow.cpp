@@ -12,6 +12,7 @@
 
 #include "engine/core/hash.h"
 #include "modules/grass/field/mesh_surface.h"
+#include "modules/grass/field/metres.h"
 #include "modules/grass/growth/patches.h"
 #include "modules/grass/growth/scatter.h"
 
@@ -161,6 +162,7 @@ std::uint64_t key_of(const GrassSource& source, std::uint32_t mesh, const SceneA
   hasher.value(source.entity.index).value(source.entity.generation).value(mesh);
   hasher.value(assets.revision(AssetKind::mesh, mesh)).value(source.surface.seed);
   hasher.text(source.types_file);
+  hasher.value(std::bit_cast<std::uint64_t>(settings.metres_per_unit));
   for (const float value : {source.surface.density, source.surface.height_m.x, source.surface.height_m.y,
                             source.surface.width_m, source.surface.max_distance_m})
     add_bits(hasher, value);
@@ -301,7 +303,8 @@ void grass_growth_system(View<const GrassSurface, const MeshInstance, const Worl
         const Mesh* mesh = instance.mesh < assets->meshes.size() ? &assets->meshes[instance.mesh] : nullptr;
         const double density = double{surface.density} * settings->density_scale;
         if (!(density > 0.0) || !std::isfinite(density) || mesh == nullptr) return;
-        GrassSource source{entity, surface, mesh, transform.matrix, strings->text(surface.types), 0};
+        const dmat4 metric = metric_matrix(transform.matrix, settings->metres_per_unit);
+        GrassSource source{entity, surface, mesh, metric, strings->text(surface.types), 0};
         source.key = key_of(source, instance.mesh, *assets, *settings);
         sources.push_back(std::move(source));
       });

@@ -28,6 +28,7 @@ struct GrassGrowthSettings {
   std::uint32_t slaves_per_master = 4;  ///< 0: every blade is a master
   float density_scale = 1.0f;           ///< factor on GrassSurface::density
   std::uint32_t max_blades = 1u << 23;  ///< at most kMostGrassBlades; the default fits WorldLimits' default
+  double metres_per_unit = 1.0;         ///< of SceneUnits; > 0
 };
 
 /// Counts of one growth.
@@ -53,7 +54,7 @@ struct GrassPlanting {
   std::uint32_t first_type = 0;  ///< in GrassField::types
   std::uint32_t type_count = 0;
   std::uint32_t first_patch = 0;  ///< in GrassField::patches
-  dmat4 planted = dmat4(1.0);     ///< world from mesh, when it was planted
+  dmat4 planted = dmat4(1.0);     ///< world in metres from mesh, when it was planted
   dmat4 now = dmat4(1.0);
   bool moving = false;           ///< GrassField::motions may differ from rest
   std::vector<dvec3> origins;    ///< of its patches, when they were planted
@@ -81,9 +82,9 @@ struct GrassSource {
   Entity entity;
   GrassSurface surface;
   const Mesh* mesh = nullptr;
-  dmat4 world_from_mesh = dmat4(1.0);
-  std::string types_file;  ///< path; empty: the built-in types
-  std::uint64_t key = 0;   ///< hash of all inputs but world_from_mesh; 0: unknown, it is always grown anew
+  dmat4 world_from_mesh = dmat4(1.0);  ///< the world in metres
+  std::string types_file;              ///< path; empty: the built-in types
+  std::uint64_t key = 0;               ///< hash of all inputs but world_from_mesh; 0: unknown, it is always grown anew
 };
 
 /// Grows the field from these sources and increments its version. The field's key stays. A surface that the field has
@@ -93,8 +94,8 @@ void grow_grass(std::span<const GrassSource> sources, const GrassGrowthSettings&
                 GrassField& field);
 
 /// Grows the surfaces anew of which the mesh, SceneAssets::version, a value or a setting changed. Blades of a surface
-/// that has moved follow it (GrassPatch::origin, GrassPatch::turn). A changed file of types is read when the field is
-/// grown for another reason.
+/// that has moved follow it (GrassPatch::origin, GrassPatch::turn). The field is in metres (metric_matrix). A changed
+/// file of types is read when the field is grown for another reason.
 void grass_growth_system(View<const GrassSurface, const MeshInstance, const WorldTransform> surfaces,
                          Resource<const SceneAssets> assets, Resource<const SceneStrings> strings,
                          Resource<const SceneClock> clock, Resource<const GrassGrowthSettings> settings,

@@ -14,7 +14,7 @@
 
 namespace gloam {
 
-/// A light whose shadows may be seen.
+/// A light whose shadows may be seen. Lights, patches and views are in metres.
 struct CastingLight {
   bool directional = false;
   dvec3 position = dvec3(0.0);  ///< world; of a local light

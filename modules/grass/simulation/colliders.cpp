@@ -7,6 +7,7 @@
 #include <glm/ext/quaternion_common.hpp>
 
 #include "engine/math/finite.h"
+#include "modules/grass/field/metres.h"
 #include "modules/grass/lod/visible_patches.h"
 
 namespace gloam {
@@ -99,12 +100,14 @@ void sweep_collider(const PlacedCollider* previous, PlacedCollider& now) {
 }
 
 void grass_colliders_system(View<const Collider, const WorldTransform> colliders, ViewResource<const RenderView> view,
-                            Resource<const StepClock> steps, Resource<GrassColliders> found) {
+                            Resource<const StepClock> steps, Resource<const GrassGrowthSettings> settings,
+                            Resource<GrassColliders> found) {
   if (found->frame == view->frame) return;
   found->frame = view->frame;
   std::vector<PlacedCollider> placed;
   colliders.each([&](Entity entity, const Collider& collider, const WorldTransform& transform) {
-    if (const auto one = place_collider(entity, collider, transform.matrix)) placed.push_back(*one);
+    const dmat4 metric = metric_matrix(transform.matrix, settings->metres_per_unit);
+    if (const auto one = place_collider(entity, collider, metric)) placed.push_back(*one);
   });
   const auto index_of = [](const PlacedCollider& c) { return c.entity.index; };
   std::ranges::sort(placed, {}, index_of);

@@ -10,12 +10,13 @@
 #include "engine/scene/components.h"
 #include "engine/schedule/schedule.h"
 #include "modules/grass/components.h"
+#include "modules/grass/field/grow.h"
 #include "modules/grass/simulation/steps.h"
 #include "shaders/grass/grass_shared.h"
 
 namespace gloam {
 
-/// A collider in the world. A sphere is a capsule whose ends coincide.
+/// A collider in the world, in metres. A sphere is a capsule whose ends coincide.
 struct PlacedCollider {
   Entity entity = kNoEntity;
   bool box = false;
@@ -38,18 +39,20 @@ struct GrassColliders {
   std::uint32_t restarts = 0;               ///< StepClock::restarts of the frame
 };
 
-/// The collider at rest at this pose; none for ColliderShape::none and for values that are not finite. A scaled sphere
-/// or capsule takes the largest scale across its axis. The axes of a sheared box are made orthogonal.
+/// The collider at rest at this pose (the world in metres); none for ColliderShape::none and for values that are not
+/// finite. A scaled sphere or capsule takes the largest scale across its axis. The axes of a sheared box are made
+/// orthogonal.
 [[nodiscard]] std::optional<PlacedCollider> place_collider(Entity entity, const Collider& collider,
                                                            const dmat4& world_from_node);
 
 /// Gives `now` the previous place of the same collider (null: it has been where it is), and the bounds of its way.
 void sweep_collider(const PlacedCollider* previous, PlacedCollider& now);
 
-/// Gathers the colliders. The previous place is that of the frame that has reached the clock's first step. After the
-/// clock was started again, all colliders have been where they are.
+/// Gathers the colliders, in metres (metric_matrix). The previous place is that of the frame that has reached the
+/// clock's first step. After the clock was started again, all colliders have been where they are.
 void grass_colliders_system(View<const Collider, const WorldTransform> colliders, ViewResource<const RenderView> view,
-                            Resource<const StepClock> steps, Resource<GrassColliders> found);
+                            Resource<const StepClock> steps, Resource<const GrassGrowthSettings> settings,
+                            Resource<GrassColliders> found);
 
 /// Adds the rows of the colliders whose way comes nearer to the patch's roots than its reach. Returns their number.
 std::uint32_t colliders_near(const GrassPatch& patch, std::span<const PlacedCollider> colliders,

@@ -31,13 +31,18 @@ constexpr double kStepsOfRange = 16.0;  // depth ranges begin and end at multipl
 /// The least power of two ≥ value.
 double power_above(double value) { return std::exp2(std::ceil(std::log2(value))); }
 
+/// The least length ≥ value that is a power of two grid units.
+double power_above(double value, const CasterBounds& casters) {
+  return power_above(value / casters.grid_unit) * casters.grid_unit;
+}
+
 dvec3 center_of(const CasterBounds& casters) { return (casters.min + casters.max) * 0.5; }
 
 /// Radius of the casters' sphere, rounded up in steps, so that small movements of casters do not change it.
 double radius_of(const CasterBounds& casters) {
   const double largest = std::max(glm::length(casters.min), glm::length(casters.max));
   const double radius = std::max({0.5 * glm::length(casters.max - casters.min), kLeastRadius * largest, 1e-30});
-  const double step = power_above(radius) / kStepsOfRange;
+  const double step = power_above(radius, casters) / kStepsOfRange;
   return std::ceil(radius / step) * step;
 }
 
@@ -99,7 +104,8 @@ Range depth_range(const CasterBounds& casters, const dvec3& forward, const Casca
     if (both.low <= both.high) range = both;
   }
   range = {center + range.low, center + range.high};
-  const double step = power_above(std::max(range.high - range.low, kLeastDepth * sphere.radius_m)) / kStepsOfRange;
+  const double step =
+      power_above(std::max(range.high - range.low, kLeastDepth * sphere.radius_m), casters) / kStepsOfRange;
   const double anchor = glm::dot(forward, casters.grid_anchor);
   const double low = std::floor((range.low - anchor) / step) * step + anchor;
   return {low, std::max(std::ceil((range.high - anchor) / step) * step + anchor, low + step)};
@@ -129,14 +135,16 @@ double CasterBounds::usual_size() const {
   for (std::size_t i = 0; i < sizes.size(); ++i)
     if (below += sizes[i]; 2 * below >= all && below > 0)
       return std::min(power_above(std::exp2(log2_sizes / static_cast<double>(all))),
-                      std::exp2(static_cast<int>(i) + kLeastExponent + 3));
+                      std::exp2(static_cast<int>(i) + kLeastExponent + 3)) *
+             grid_unit;
   return 0.0;
 }
 
 void CasterBounds::add_size(double half_diagonal) {
   if (!(half_diagonal > 0.0) || !std::isfinite(half_diagonal)) return;
-  log2_sizes += std::log2(half_diagonal);
-  const double index = std::ceil(std::log2(half_diagonal)) - kLeastExponent;
+  const double log2_size = std::log2(half_diagonal / grid_unit);
+  log2_sizes += log2_size;
+  const double index = std::ceil(log2_size) - kLeastExponent;
   ++sizes[static_cast<std::size_t>(std::clamp(index, 0.0, static_cast<double>(sizes.size() - 1)))];
 }
 

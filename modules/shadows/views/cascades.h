@@ -18,16 +18,18 @@ struct CasterBounds {
   dvec3 min = dvec3(std::numeric_limits<double>::infinity());
   dvec3 max = dvec3(-std::numeric_limits<double>::infinity());
   dvec3 grid_anchor = dvec3(0.0);  ///< ShadowTexelGrid::anchor
+  double grid_unit = 1.0;          ///< ShadowTexelGrid::unit
 
   static constexpr int kLeastExponent = -64;
-  /// Numbers of casters by size: whose half diagonal is in (2^(e − 1), 2^e], where e − kLeastExponent is the index.
+  /// Numbers of casters by size: whose half diagonal is in (2^(e − 1), 2^e] grid units, where e − kLeastExponent is the
+  /// index.
   std::array<std::uint32_t, 128> sizes{};
-  double log2_sizes = 0.0;  ///< sum of the binary logarithms of the casters' half diagonals
+  double log2_sizes = 0.0;  ///< sum of the binary logarithms of the casters' half diagonals, grid units
 
   /// False when there are no casters, and when a bound is not finite.
   [[nodiscard]] bool known() const;
-  /// Geometric mean of the casters' half diagonals, rounded up to a power of two, but at most eight times their lower
-  /// median, so that a ground of any width does not raise it further; 0: unknown.
+  /// Geometric mean of the casters' half diagonals, rounded up to a power of two grid units, but at most eight times
+  /// their lower median, so that a ground of any width does not raise it further; 0: unknown.
   [[nodiscard]] double usual_size() const;
   void add_size(double half_diagonal);
   void add_sizes(const CasterBounds& other);

@@ -40,7 +40,7 @@ void main() {
   // A slave's pose in the frame before is taken to be that of this frame.
   bool moves = steps.moves != 0u && stamps[v.knot / uint(GLOAM_GRASS_KNOTS)] == steps.now;
   vec3 way = posed(poses[v.pose], unpack_way(vec2(knots[v.knot].w, previous_knots[v.knot].w)));
-  vec3 before = v.relative - poses[v.pose].carried;
-  out_previous_clip = previous_clip_at_rest(motion, moves ? before - way : before);
+  vec3 before = v.relative - poses[v.pose].carried * draws.units_per_metre;
+  out_previous_clip = previous_clip_at_rest(motion, moves ? before - way * draws.units_per_metre : before);
 #endif
 }

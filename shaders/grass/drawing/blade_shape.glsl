@@ -16,7 +16,7 @@ layout(set = 0, binding = 2, scalar) readonly buffer Draws { GrassDraws draws; }
 layout(set = 0, binding = 3, scalar) readonly buffer Knots { vec4 knots[]; };
 
 struct BladeVertex {
-  vec3 relative;  // camera-relative
+  vec3 relative;  // camera-relative, in units
   vec3 normal;
   vec3 binormal;
   float along;   // 0 root … 1 tip
@@ -50,7 +50,8 @@ BladeVertex blade_vertex(uint instance, uint first, uint count, uint vertex, uin
   v.along = float(knot) / float(last);
   v.across = (corner & 1u) == 0u ? -1.0 : 1.0;
   float half_width_m = 0.5 * width.x * mix(1.0, width.y, v.along * v.along);
-  v.relative = posed(pose, at) + vec3(pose.row0.w, pose.row1.w, pose.row2.w) + side * (v.across * half_width_m);
+  vec3 metric = posed(pose, at) + vec3(pose.row0.w, pose.row1.w, pose.row2.w) + side * (v.across * half_width_m);
+  v.relative = metric * draws.units_per_metre;
   v.binormal = side;
   v.normal = cross(side, tangent);
   v.layer = pose.layer;

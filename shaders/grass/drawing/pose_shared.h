@@ -7,8 +7,8 @@
 
 GLOAM_SHARED_BEGIN
 
-/// One live blade as a view draws it: how its knots follow from those of its master, and its width. Written by
-/// pose.comp once per blade, so that its vertices need not compute it.
+/// One live blade as a view draws it, in metres: how its knots follow from those of its master, and its width. Written
+/// by pose.comp once per blade, so that its vertices need not compute it.
 struct GrassPose {
   vec4 row0;  // rows of the matrix from the master's knots, in the patch, to camera-relative positions
   vec4 row1;

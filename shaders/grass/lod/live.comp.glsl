@@ -32,6 +32,7 @@ void main() {
       draw_of(casting, lod.class_segments[GLOAM_GRASS_CAST_CLASS], lod.class_indices[GLOAM_GRASS_CAST_CLASS]);
   draws.cast_count = casting;
   draws.live = live;
+  draws.units_per_metre = lod.units_per_metre;
   draws.blade_groups = uvec3((live + 63u) / 64u, 1u, 1u);
   dispatch = GrassDispatch(0u, uvec3(0u, 1u, 1u));
 }

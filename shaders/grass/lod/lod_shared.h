@@ -12,21 +12,22 @@
 
 GLOAM_SHARED_BEGIN
 
-/// Level of detail of one view. Lengths in metres.
+/// Level of detail of one view. Lengths in metres; planes are those of the view in metres.
 struct GrassLod {
-  vec4 planes[5];        // camera-relative: a point p is inside if dot(xyz, p) + w >= 0
-  float range_m;         // distance of key 255
-  float pixel_m;         // size of a pixel at a distance of 1 m; of all pixels if orthographic
-  uint orthographic;     // 0 or 1
-  float width_px;        // least width of a blade's root to which the LOD thins and widens the field; 0: no thinning
-  uint threshold;        // greatest key that is drawn, 0…254
-  float cast_m;          // blades nearer than this stay although they are out of view: they may cast shadows into it
-  uint cast_key;         // greatest key of blades that cast shadows; GLOAM_GRASS_CULLED: none do
-  uint most_masters;     // that the dispatch of the simulation has room for
-  float steps_per_s;     // of the simulation
-  uvec4 class_keys;      // greatest key of each draw class, rising; the last is 254
-  uvec4 class_segments;  // segments of each blade of a class: 15, 5, 3 or 1
-  uvec4 class_indices;   // first index of a class in the index buffer
+  vec4 planes[5];         // camera-relative: a point p is inside if dot(xyz, p) + w >= 0
+  float range_m;          // distance of key 255
+  float pixel_m;          // size of a pixel at a distance of 1 m; of all pixels if orthographic
+  uint orthographic;      // 0 or 1
+  float width_px;         // least width of a blade's root to which the LOD thins and widens the field; 0: no thinning
+  uint threshold;         // greatest key that is drawn, 0…254
+  float cast_m;           // blades nearer than this stay although they are out of view: they may cast shadows into it
+  uint cast_key;          // greatest key of blades that cast shadows; GLOAM_GRASS_CULLED: none do
+  uint most_masters;      // that the dispatch of the simulation has room for
+  float steps_per_s;      // of the simulation
+  float units_per_metre;  // of the view
+  uvec4 class_keys;       // greatest key of each draw class, rising; the last is 254
+  uvec4 class_segments;   // segments of each blade of a class: 15, 5, 3 or 1
+  uvec4 class_indices;    // first index of a class in the index buffer
 };
 
 /// Arguments of one indexed indirect draw.
@@ -47,6 +48,7 @@ struct GrassDraws {
   uint class_first[GLOAM_GRASS_CLASSES];  // in the sorted blades
   uint class_count[GLOAM_GRASS_CLASSES];
   uint cast_count;
+  float units_per_metre;
 };
 
 /// Masters that a frame simulates, written by live.comp and masters.comp.

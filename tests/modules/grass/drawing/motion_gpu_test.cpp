@@ -17,6 +17,7 @@
 #include "tests/modules/grass/support/stems.h"
 
 #include "engine/render/readback/geometry_picture.h"
+#include "engine/scene/units.h"
 
 // GeometryOutputs::motion of blades against the stems of two frames, projected in double precision.
 
@@ -147,6 +148,39 @@ TEST_F(GrassMotion, of_slaves_follows_their_masters) {
   // The turn of a slave changes with the speed of its master.
   EXPECT_LT(compared.worst, 0.5);
   EXPECT_LT(compared.mean, 0.03);
+}
+
+TEST_F(GrassMotion, is_that_in_metres_whatever_a_unit_is) {
+  std::vector<vec2> first;
+  for (const double units : {1.0, 1.0 / 128.0, 128.0}) {  // of a metre; powers of two, so that nothing is rounded
+    GrassStage stage({.motion = true});
+    stage.world.set_resource(SceneUnits{1.0 / units});
+    stage.set("grass.lod_pixels", "0");
+    GrassSurface values;
+    values.width_m = 0.015f;
+    const Entity ground = stage.lawn(static_cast<float>(0.6 * units), 120, dvec3(0.0), values);
+    stage.world.get<GrassSurface>(ground).density = 120.0f / 1.44f;
+    stage.wind(vec3(40.0f, 0.0f, 15.0f), 0.8f);
+    stage.run_at(kFrame);
+    const auto draw = [&](double turn) {
+      ViewSettings view = camera(turn);
+      view.world_from_camera[3] = dvec4(dvec3(view.world_from_camera[3]) * units, 1.0);
+      view.camera.near_m *= static_cast<float>(units);
+      stage.world.get<WorldTransform>(ground).matrix[3].x = turn * units;
+      stage.draw(view);
+    };
+    for (int i = 0; i < 4; ++i) draw(0.0);
+    draw(0.05);
+    const std::vector<vec2> motion = motion_of(stage);
+    if (first.empty()) first = motion;
+    double worst = 0.0, longest = 0.0;
+    for (std::size_t i = 0; i < motion.size(); ++i) {
+      worst = std::max(worst, static_cast<double>(glm::length(motion[i] - first[i])));
+      longest = std::max(longest, static_cast<double>(glm::length(motion[i])));
+    }
+    EXPECT_GT(longest, 1.0);
+    EXPECT_LT(worst, 0.001) << units;
+  }
 }
 
 TEST_F(GrassMotion, is_none_while_time_stands_and_in_the_first_frame) {

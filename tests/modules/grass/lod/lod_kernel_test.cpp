@@ -323,7 +323,7 @@ TEST(GrassDetailClasses, need_more_segments_nearer_and_full_segments_everywhere_
   EXPECT_EQ(lod.class_keys[GLOAM_GRASS_CLASSES - 1], 254u);
   GrassKnobs knobs;
   knobs.all_segments = true;
-  EXPECT_EQ(grass_lod(view, knobs, 40.0f, 0.4f).class_keys[0], 254u);
+  EXPECT_EQ(grass_lod(view, knobs, {40.0f, 0.4f}).class_keys[0], 254u);
 }
 
 }  // namespace

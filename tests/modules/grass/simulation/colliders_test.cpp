@@ -90,12 +90,23 @@ class GrassColliderSystem : public ::testing::Test {
     ++view_.frame;
     grass_colliders_system(View<const Collider, const WorldTransform>(world_), ViewResource<const RenderView>(view_),
                            Resource<const StepClock>(world_.resource<StepClock>()),
+                           Resource<const GrassGrowthSettings>(settings_),
                            Resource<GrassColliders>(world_.resource<GrassColliders>()));
     return world_.resource<GrassColliders>().colliders;
   }
   World world_;
   RenderView view_;
+  GrassGrowthSettings settings_;
 };
+
+TEST_F(GrassColliderSystem, are_in_metres_whatever_a_unit_is) {
+  settings_.metres_per_unit = 0.01;
+  const Entity entity = add({ColliderShape::sphere, 50.0f}, dvec3(100.0, 200.0, -300.0));
+  EXPECT_LT(glm::length(frame(0.01).at(0).from - dvec3(1.0, 2.0, -3.0)), 1e-12);
+  EXPECT_NEAR(frame(0.01).at(0).radius_m, 0.5, 1e-12);
+  move(entity, dvec3(600.0, 200.0, -300.0));
+  EXPECT_LT(glm::length(frame(0.01).at(0).high - dvec3(6.5, 2.5, -2.5)), 1e-12);
+}
 
 TEST_F(GrassColliderSystem, the_way_begins_where_the_last_advanced_frame_has_ended) {
   const Entity entity = add(kSphere, dvec3(0.0));

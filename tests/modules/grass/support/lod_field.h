@@ -23,7 +23,7 @@ namespace gloam::test {
 
 /// Level of detail with the default knobs.
 [[nodiscard]] inline shaders::GrassLod lod_of(const RenderView& view, float range_m) {
-  return grass_lod(view, {}, range_m, 0.4f);
+  return grass_lod(view, {}, {range_m, 0.4f});
 }
 
 /// Patches of random blades around the origin as the kernels of the level of detail see them.

@@ -165,6 +165,28 @@ TEST(CascadeSpheres, reach_past_all_casters_up_to_a_limit_that_scales) {
   EXPECT_GE(shadow_distance(view_of(camera_at({0, 0, 5e4})), box({0, 0, 0}, dvec3(1.0))), 5e4);
 }
 
+TEST(CascadeSpheres, of_the_same_scene_in_other_units_are_the_same_in_metres) {
+  for (const double unit : {1e-3, 0.01, 0.3, 100.0, 1000.0})
+    for (const double half : {0.7, 3.0, 45.0, 900.0}) {
+      const auto spheres = [&](double units) {
+        RenderView view = view_of(camera_at(dvec3(0.5, 1.0, 2.0) * units));
+        view.near_m = static_cast<float>(0.1 * units);
+        CasterBounds casters = box(dvec3(0.1, 0.2, 0.3) * units, dvec3(half, 1.0, half) * units);
+        casters.grid_unit = units;
+        for (int i = 0; i < 9; ++i) casters.add_size(0.31 * units * (i + 1));
+        return std::pair(cascade_spheres(view, casters, 4), casters.usual_size());
+      };
+      const auto [expected, size] = spheres(1.0);
+      const auto [found, found_size] = spheres(unit);
+      EXPECT_NEAR(found_size / unit, size, 1e-9 * size) << unit;
+      ASSERT_EQ(found.size(), expected.size()) << unit;
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        EXPECT_NEAR(found[i].radius_m / unit, expected[i].radius_m, 1e-5 * expected[i].radius_m) << unit << ' ' << half;
+        EXPECT_LT(glm::length(found[i].center / unit - expected[i].center), 1e-5 * expected[i].radius_m);
+      }
+    }
+}
+
 TEST(CascadeFaces, shift_by_whole_texels_and_never_change_a_texels_size) {
   for (const dvec3& home : {dvec3(0.0), dvec3(1e5, -1e5, 1e5)}) {
     const CasterBounds casters = box(home, {80, 10, 80});
