@@ -31,7 +31,7 @@ struct ProxyFitRequest {
   std::uint32_t eyes = 1024;    ///< eyes placed at random for the choice, and as many others for the judgement
 };
 
-/// A node that could be added to the scene: an IbrProxy of kind `scene`.
+/// A node that could be added to the scene: an IbrProxy of kind `scene`. In units of the scene.
 struct ProposedProxy {
   dvec3 translation = dvec3(0.0);
   dquat rotation = dquat(1.0, 0.0, 0.0, 0.0);
@@ -39,7 +39,7 @@ struct ProposedProxy {
 };
 
 /// Reflected rays that hit a surface, and how many of them the first proxy on the ray catches: it lies within 0.25 m of
-/// the surface.
+/// the surface (SceneUnits).
 struct CaughtShares {
   std::string viewers;  ///< "camera court", "eyes"
   std::uint64_t rays = 0;

@@ -91,7 +91,16 @@ std::string conditions_of(const Options& options) {
          "' animation '" + options.animation + "'";
 }
 
-/// Knobs of effects that the scene does not demand change nothing: they are measured only if the user names them.
+/// Why a knob of the module changes nothing; empty: it may. The knob that switches the module off may.
+std::string idle_reason(const Module& module, const std::string& knob, const Session& session) {
+  const Demand demand = module.demand(session.world, nullptr);
+  if (!demand.needed) return "the scene does not call for " + std::string(module.name()) + ": " + demand.reason;
+  const std::string off = module.switched_off(session.world, session.renderer->knobs());
+  return off.empty() || off.starts_with(knob + "=") ? "" : std::string(module.name()) + " is switched off: " + off;
+}
+
+/// Knobs of effects that the scene does not demand, or that a knob switches off, change nothing: they are measured only
+/// if the user names them.
 CostRequest make_request(Session& session, const Options& options, const std::vector<std::string>& chosen) {
   CostRequest request = {.header = header_of(session, options),
                          .conditions = conditions_of(options),
@@ -100,11 +109,8 @@ CostRequest make_request(Session& session, const Options& options, const std::ve
   for (const std::string& name : chosen) {
     const std::string& owner = session.renderer->knobs().find(name)->module;
     std::string reason;
-    for (const auto& module : session.renderer->modules()) {
-      if (module->name() != owner || !options.knobs.empty()) continue;
-      const Demand demand = module->demand(session.world, nullptr);
-      if (!demand.needed) reason = "the scene does not call for " + owner + ": " + demand.reason;
-    }
+    for (const auto& module : session.renderer->modules())
+      if (module->name() == owner && options.knobs.empty()) reason = idle_reason(*module, name, session);
     if (reason.empty())
       request.knobs.push_back(name);
     else
@@ -123,7 +129,7 @@ Status write_ledger(const Ledger& ledger, const std::string& folder) {
 
 Status run_cost(const CommandContext& context) {
   Options options = context.options;
-  if (options.quick) {
+  if (options.quick && !options.size_given) {
     options.width = kQuickWidth;
     options.height = kQuickHeight;
   }

@@ -9,6 +9,7 @@
 
 #include "engine/core/text/formatted.h"
 #include "engine/scene/assets.h"
+#include "engine/scene/units.h"
 #include "modules/accuracy/module.h"
 #include "modules/reflections/module.h"
 #include "sandbox/output/file_io.h"
@@ -49,26 +50,27 @@ std::string report(const ProxyProposal& proposal) {
   return text + row(all);
 }
 
-/// Numbers rounded for reading: tenths of a millimetre, and 1e-6 for rotations.
+/// Numbers rounded for reading: about tenths of a millimetre, and 1e-6 for rotations.
 double rounded(double value, double steps) {
   const double result = std::round(value * steps) / steps;
   return result == 0.0 ? 0.0 : result;
 }
 
-Json proposal_json(const ProxyProposal& proposal) {
+Json proposal_json(const ProxyProposal& proposal, double metres_per_unit) {
   Json nodes = Json::array();
-  const auto metres = [](double value) { return rounded(value, 1e4); };
+  const double steps = std::pow(10.0, std::round(std::log10(1e4 * metres_per_unit)));
+  const auto length = [steps](double value) { return rounded(value, steps); };
   const auto share = [](double value) { return rounded(value, 1e6); };
   for (const ProposedProxy& proxy : proposal.proxies) {
     const dvec3& at = proxy.translation;
     const dquat& q = proxy.rotation;
     Json extras;
-    extras["gloam.ibr_proxy.size"] = {metres(static_cast<double>(proxy.size_m.x)),
-                                      metres(static_cast<double>(proxy.size_m.y))};
+    extras["gloam.ibr_proxy.size"] = {length(static_cast<double>(proxy.size_m.x)),
+                                      length(static_cast<double>(proxy.size_m.y))};
     extras["gloam.ibr_proxy.kind"] = "scene";
     Json node;
     node["name"] = "proxy-" + std::to_string(nodes.size());
-    node["translation"] = {metres(at.x), metres(at.y), metres(at.z)};
+    node["translation"] = {length(at.x), length(at.y), length(at.z)};
     node["rotation"] = {share(q.x), share(q.y), share(q.z), share(q.w)};
     node["extras"] = std::move(extras);
     nodes.push_back(std::move(node));
@@ -93,7 +95,7 @@ Status run_fit_proxies(const CommandContext& context) {
                       surface_distances(**tracer, world.resource<SceneAssets>(), *executor), *executor);
   const std::string path = options.out.empty() ? "out/" + scene_stem(options.scene) + ".proxies.json" : options.out;
   GLOAM_TRY(make_folder_of(path));
-  GLOAM_TRY(write_file(path, json_text(proposal_json(proposal))));
+  GLOAM_TRY(write_file(path, json_text(proposal_json(proposal, metres_per_unit(world)))));
   context.console.print(report(proposal));
   if (!options.quiet) context.console.print("wrote " + path + "\n");
   return {};

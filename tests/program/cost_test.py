@@ -142,6 +142,20 @@ class Cost(ProgramCase):
         for entry in ledger["skipped"]:
             self.assertTrue(entry["reason"])
 
+    def test_knobs_of_effects_that_are_switched_off_are_skipped(self):
+        scene = GltfScene()
+        scene.node(mesh=scene.card(scene.material()))
+        scene.light(light={"type": "point", "intensity": 12}, translation=[0, 1, 3])
+        scene.camera(translation=[0, 0, 3])
+        (self.folder / "card.gltf").write_text(scene.text())
+        self.expect(0, "cost", "card.gltf", "--quick", "--size", "48x32", "--out", "ledger", "--quiet", "--set", "shadows.mode=off")
+        ledger = self.read_json("ledger/ledger.json")
+        self.assertEqual(ledger["size"], [48, 32], "--size is kept")
+        self.assertEqual({row["knob"] for row in ledger["rows"] if row["knob"].startswith("shadows.")}, {"shadows.mode"})
+        reasons = {entry["knob"]: entry["reason"] for entry in ledger["skipped"]}
+        for knob in ("shadows.filter", "shadows.atlas", "shadows.bias"):
+            self.assertEqual(reasons.get(knob), "shadows is switched off: shadows.mode=off", knob)
+
     def test_knobs_of_absent_effects_are_measured_if_they_are_named(self):
         named = "particles.lighting,closeups.filter,fog.radius"
         self.expect(0, "cost", "builtin:plain", "--quick", "--knobs", named, "--set", "shadows.mode=off", "--out", "ledger")

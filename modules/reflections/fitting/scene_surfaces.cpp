@@ -10,6 +10,7 @@
 #include "engine/scene/assets.h"
 #include "engine/scene/components.h"
 #include "engine/scene/posing/animated_nodes.h"
+#include "engine/scene/units.h"
 
 namespace gloam {
 namespace {
@@ -22,11 +23,12 @@ struct Instance {
 
 std::vector<Instance> gather_instances(const World& world, const SceneAssets& assets) {
   const AnimatedNodes animated(world);
+  const double metres = metres_per_unit(world);
   std::vector<Instance> instances;
   world.view<const MeshInstance, const WorldTransform>().each(
       [&](Entity entity, const MeshInstance& drawn, const WorldTransform& transform) {
         if (drawn.mesh >= assets.meshes.size() || drawn.skin != kNone || animated.moves(entity)) return;
-        instances.push_back({entity, &assets.meshes[drawn.mesh], transform.matrix});
+        instances.push_back({entity, &assets.meshes[drawn.mesh], metric_matrix(transform.matrix, metres)});
       });
   std::ranges::sort(instances, [](const Instance& a, const Instance& b) { return a.entity.index < b.entity.index; });
   return instances;

@@ -13,7 +13,7 @@ namespace gloam {
 /// Surfaces with less reflectivity receive no rays for the fit.
 inline constexpr float kLeastReflectivity = 0.3f;
 
-/// The rigid, unmoving surfaces of a world.
+/// The rigid, unmoving surfaces of a world, in metres whatever its units are (SceneUnits).
 struct SceneSurfaces {
   std::vector<FitTriangles> instances;  ///< ordered by entity index, then by primitive; without blended ones
   std::vector<UpTriangle> ground;       ///< all triangles of `instances`
