@@ -72,6 +72,10 @@ class FogModule final : public Module {
   void prepare_view(World& world, ViewId, const KnobRegistry&) const override {
     world.set_resource(homogeneous(find_fog(world)));
   }
+  /// References of a world whose fog has gone have none.
+  void leave_world(World& world) const override {
+    if (auto* fog = world.try_resource<HomogeneousFog>()) *fog = {};
+  }
 
   [[nodiscard]] Demand demand(const World& world, const RenderView* view) const override {
     if (view != nullptr && view->purpose == ViewPurpose::capture) return {false, "captures have no fog"};

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "modules/lighting/outputs.h"
 #include "tests/modules/fog/support/fog_stage.h"
 
 namespace gloam::test {
@@ -84,6 +85,25 @@ TEST_F(FogFrames, leave_the_picture_alone_without_density) {
   for (const float density : {0.0f, -1.0f, std::numeric_limits<float>::quiet_NaN()}) {
     stage.put({density, vec3(9.0f)});
     EXPECT_TRUE(stage.draw().rgba == clear.rgba) << density;
+  }
+}
+
+TEST_F(FogFrames, leave_no_fog_for_references_once_it_has_gone) {
+  FogStage stage;
+  stage.fill();
+  const auto density = [&] {
+    const auto* fog = stage.world.try_resource<HomogeneousFog>();
+    return fog == nullptr ? 0.0f : fog->density;
+  };
+  static_cast<void>(stage.draw());
+  EXPECT_EQ(density(), 0.0f);
+  for (const bool taken : {true, false}) {
+    stage.put(kFog);
+    static_cast<void>(stage.draw());
+    EXPECT_EQ(density(), kFog.density);
+    taken ? stage.take_fog() : stage.put({0.0f, vec3(9.0f)});
+    static_cast<void>(stage.draw());
+    EXPECT_EQ(density(), 0.0f) << taken;
   }
 }
 
