@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 """The same scene at another scale, or at another place, gives the same picture. With GLOAM_LONG_TESTS every scene is tried
 at every scale and place."""
+import json
 import math
 
 from program_case import LONG, ProgramCase, main
@@ -212,6 +213,42 @@ class Scale(ProgramCase):
                 scene.meshes[0] = ([(x * half / 6.0, y, z * half / 6.0) for x, y, z in scene.meshes[0][0]], *scene.meshes[0][1:])
                 other = self.picture("wide", scene)
                 steps = [abs(a - b) for a, b in zip(first.rgb[-3 * 160 * rows:], other.rgb[-3 * 160 * rows:])]
+                self.assertLessEqual(sum(steps) / len(steps), 0.5)
+
+    def test_the_sun_over_a_ground_with_many_other_triangles(self):
+        # The ground and 5,000 small triangles, below it, are one mesh.
+        def town(half):
+            scene = sun()
+            positions, normals, indices, material = scene.meshes[0]
+            small = [(0.01 * (i % 71) + dx, -1.0, 0.01 * (i // 71) + dz) for i in range(5000) for dx, dz in ((0, 0), (0, 0.01), (0.01, 0))]
+            scene.meshes[0] = ([(x * half / 6.0, y, z * half / 6.0) for x, y, z in positions] + small, normals + [normals[0]] * len(small),
+                               indices + list(range(4, 4 + len(small))), material)
+            return scene
+        first, rows = self.picture("first", town(6.0)), 60
+        for half in (1e5, 1e9):
+            with self.subTest(half=half):
+                other = self.picture("wide", town(half))
+                steps = [abs(a - b) for a, b in zip(first.rgb[-3 * 160 * rows:], other.rgb[-3 * 160 * rows:])]
+                self.assertLessEqual(sum(steps) / len(steps), 0.5)
+
+    def test_the_reference_over_a_slanted_ground_of_any_width(self):
+        def slanted(name, half):
+            scene = sun()
+            scene.meshes[0] = ([(x * half / 6.0, y, z * half / 6.0) for x, y, z in scene.meshes[0][0]], *scene.meshes[0][1:])
+            path = self.folder / (name + ".gltf")
+            scene.write(path)
+            file = json.loads(path.read_text())
+            h = 0.35
+            file["nodes"].append({"children": list(range(len(file["nodes"]))),
+                                  "rotation": [0.36 * math.sin(h), 0.48 * math.sin(h), 0.8 * math.sin(h), math.cos(h)]})
+            file["scenes"][0]["nodes"] = [len(file["nodes"]) - 1]
+            path.write_text(json.dumps(file))
+            self.expect(0, "render", path.name, "--size", "160x108", "--out", name + ".png", "--view", "shadow_reference:key")
+            return read_png(self.folder / (name + ".png"))
+        first, rows = slanted("first", 6.0), 60
+        for half in (1e4, 1e6, 1e9):
+            with self.subTest(half=half):
+                steps = [abs(a - b) for a, b in zip(first.rgb[-3 * 160 * rows:], slanted("wide", half).rgb[-3 * 160 * rows:])]
                 self.assertLessEqual(sum(steps) / len(steps), 0.5)
 
     def test_near_planes(self):

@@ -31,8 +31,7 @@ PackedPrimitive pack_primitive(const Primitive& source, bool simplify) {
   primitive.closed = is_closed_surface(ordered.positions, packed.indices);
   primitive.smooth_shaded = is_smooth_shaded(ordered.positions, ordered.normals, packed.indices);
   primitive.bounds = ordered.bounds;
-  if (!primitive.skinned && primitive.morph_targets == 0 && source.indices.size() <= 3 * kMostSplitTriangles)
-    primitive.longest_edge = longest_edge(source);
+  if (!primitive.skinned && primitive.morph_targets == 0) primitive.longest_edge = longest_edge(source);
   primitive.joint_bounds = joint_bounds(ordered, packed.influences);
   primitive.morph_bounds = morph_bounds(ordered);
   packed.positions = std::move(ordered.positions);

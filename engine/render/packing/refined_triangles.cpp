@@ -9,16 +9,16 @@
 #include <limits>
 #include <map>
 #include <set>
-#include <tuple>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
+#include "engine/core/hash.h"
 #include "engine/math/bounds.h"
 
 namespace gloam {
 namespace {
 
-constexpr std::size_t kMostTriangles = 1 << 16;  // of a result; a camera in many triangles at once gets no more
 constexpr int kMostRounds = 128;
 
 using Triangle = std::array<std::uint32_t, 3>;
@@ -37,26 +37,44 @@ double nearest_eye(const SeenFrom& seen, const dvec3& a, const dvec3& b, const d
   return std::max(nearest, seen.nearest);
 }
 
+/// Not more than the distance of an eye from the triangle. Cheap.
+double nearest_eye_bound(const SeenFrom& seen, const dvec3& a, double length) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const dvec3& eye : seen.eyes) nearest = std::min(nearest, glm::length(eye - a) - length);
+  return std::max(nearest, seen.nearest);
+}
+
+struct PositionHash {
+  std::size_t operator()(const vec3& p) const {
+    // −0 and 0 are one place.
+    return static_cast<std::size_t>(Hasher().bytes_of(p + vec3(0.0f)).digest());
+  }
+};
+
 /// Splits triangles by their longest edges. An edge is named by its corners' places, which vertices with different
 /// normals share; so both triangles of an edge split it, at the same point.
 class Splitter {
  public:
   Splitter(const Primitive& source, const SeenFrom& seen) : seen_(seen), made_(source) {
-    std::map<std::tuple<float, float, float>, std::uint32_t> known;
+    std::unordered_map<vec3, std::uint32_t, PositionHash> known(source.positions.size());
     for (const vec3& position : source.positions) {
-      const auto found = known.try_emplace({position.x, position.y, position.z}, places_.size()).first;
+      const auto found = known.try_emplace(position, places_.size()).first;
       if (found->second == places_.size()) add_place(dvec3(position));
       place_of_.push_back(found->second);
     }
-    for (std::size_t i = 0; i + 2 < source.indices.size(); i += 3)
-      triangles_.push_back({source.indices[i], source.indices[i + 1], source.indices[i + 2]});
+    own_places_ = places_.size();
+    marked_places_.assign(own_places_, 0);
+    for (std::size_t i = 0; i + 2 < source.indices.size(); i += 3) {
+      const Triangle triangle{source.indices[i], source.indices[i + 1], source.indices[i + 2]};
+      (is_long(triangle) ? triangles_ : whole_).push_back(triangle);
+    }
   }
 
   Primitive split(const dvec3& origin) {
-    for (int round = 0; round < kMostRounds && triangles_.size() < kMostTriangles; ++round) {
+    for (int round = 0; round < kMostRounds && triangles_.size() < kMostAddedTriangles; ++round) {
       edges_ = {};
       for (const Triangle& triangle : triangles_)
-        if (is_long(triangle)) edges_.insert(longest(triangle));
+        if (is_long(triangle)) mark(longest(triangle));
       if (edges_.empty()) break;
       split_edges();
     }
@@ -75,7 +93,9 @@ class Splitter {
   [[nodiscard]] const dvec3& world(std::uint32_t vertex) const { return worlds_[place_of_[vertex]]; }
   [[nodiscard]] bool is_long(const Triangle& t) const {
     const dvec3 &a = world(t[0]), &b = world(t[1]), &c = world(t[2]);
-    return length_of(a, b, c) > kSplitLength * nearest_eye(seen_, a, b, c);
+    const double length = length_of(a, b, c);
+    if (!(length > kSplitLength * nearest_eye_bound(seen_, a, length))) return false;
+    return length > kSplitLength * nearest_eye(seen_, a, b, c);
   }
   /// The first corner of the longest edge. Of edges of equal length both triangles choose the same one.
   [[nodiscard]] std::size_t longest_at(const Triangle& t) const {
@@ -92,20 +112,45 @@ class Splitter {
     const std::size_t i = longest_at(t);
     return edge(t[i], t[(i + 1) % 3]);
   }
+  /// Returns whether the edge was not marked before.
+  bool mark(const Edge& edge) {
+    if (!edges_.insert(edge).second) return false;
+    if (edge.second >= own_places_) return true;  // no whole triangle has it
+    marked_places_[edge.first] = marked_places_[edge.second] = 1;
+    marked_own_ = true;
+    return true;
+  }
+  /// Whether the triangle has a marked edge. Then its longest edge is marked, too; more: if it was not before.
+  bool mark_longest(const Triangle& t, bool& more) {
+    if (!is_marked(t[0], t[1]) && !is_marked(t[1], t[2]) && !is_marked(t[2], t[0])) return false;
+    more = mark(longest(t)) || more;
+    return true;
+  }
+  /// Moves whole triangles with a marked edge to those that are split.
+  void take_neighbours(bool& more) {
+    if (!std::exchange(marked_own_, false)) return;
+    const auto is_taken = [&](const Triangle& t) {
+      const int marked =
+          marked_places_[place_of_[t[0]]] + marked_places_[place_of_[t[1]]] + marked_places_[place_of_[t[2]]];
+      if (marked < 2 || !mark_longest(t, more)) return false;
+      triangles_.push_back(t);
+      return true;
+    };
+    std::erase_if(whole_, is_taken);
+  }
   [[nodiscard]] bool is_marked(std::uint32_t a, std::uint32_t b) const { return edges_.contains(edge(a, b)); }
 
   /// Splits all marked edges. A triangle is split at its longest edge first, so it is marked, too.
   void split_edges() {
     for (bool more = true; more;) {
       more = false;
-      for (const Triangle& t : triangles_)
-        if (is_marked(t[0], t[1]) || is_marked(t[1], t[2]) || is_marked(t[2], t[0]))
-          more = edges_.insert(longest(t)).second || more;
+      for (const Triangle& t : triangles_) mark_longest(t, more);
+      take_neighbours(more);
     }
     vertices_.clear();
     middles_.clear();
-    std::vector<Triangle> whole = std::exchange(triangles_, {});
-    for (const Triangle& t : whole) split_triangle(t, longest_at(t));
+    const std::vector<Triangle> before = std::exchange(triangles_, {});
+    for (const Triangle& t : before) split_triangle(t, longest_at(t));
   }
   void split_triangle(const Triangle& t, std::size_t at) {
     const std::uint32_t a = t[at], b = t[(at + 1) % 3], c = t[(at + 2) % 3];
@@ -163,16 +208,22 @@ class Splitter {
       tangent = vec4(length > 0.0f ? along / length : vec3(1.0f, 0.0f, 0.0f), tangent.w < 0.0f ? -1.0f : 1.0f);
     }
     made_.indices.clear();
-    for (const Triangle& t : triangles_) made_.indices.insert(made_.indices.end(), t.begin(), t.end());
+    made_.indices.reserve(3 * (whole_.size() + triangles_.size()));
+    for (const auto* some : {&whole_, &triangles_})
+      for (const Triangle& t : *some) made_.indices.insert(made_.indices.end(), t.begin(), t.end());
     return std::move(made_);
   }
 
   const SeenFrom& seen_;
-  Primitive made_;                       ///< attributes of all vertices but positions
-  std::vector<dvec3> places_, worlds_;   ///< in the mesh and in the world
-  std::vector<std::uint32_t> place_of_;  ///< by vertex
-  std::vector<Triangle> triangles_;      ///< of vertices
-  std::set<Edge> edges_;                 ///< to split
+  Primitive made_;                           ///< attributes of all vertices but positions
+  std::vector<dvec3> places_, worlds_;       ///< in the mesh and in the world
+  std::vector<std::uint32_t> place_of_;      ///< by vertex
+  std::vector<Triangle> whole_;              ///< triangles of vertices that are not split
+  std::vector<Triangle> triangles_;          ///< all others
+  std::size_t own_places_ = 0;               ///< of the source
+  std::vector<std::uint8_t> marked_places_;  ///< 1: of a marked edge, by place of the source
+  bool marked_own_ = false;                  ///< an edge between places of the source was marked
+  std::set<Edge> edges_;                     ///< to split
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> vertices_;  ///< made of two vertices in this round
   std::map<Edge, std::uint32_t> middles_;                                      ///< places made in this round
 };
@@ -204,16 +255,17 @@ double distance_to_triangle(const dvec3& point, const dvec3& a, const dvec3& b, 
   return std::min({to_segment(a, b), to_segment(b, c), to_segment(c, a)});
 }
 
-double longest_ratio(const Primitive& primitive, const SeenFrom& seen) {
-  double longest = 0.0;
+double split_slack(const Primitive& primitive, const SeenFrom& seen) {
+  double slack = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
     std::array<dvec3, 3> corners;
     for (std::size_t k = 0; k < 3; ++k)
       corners[k] = world_of(seen.world_from_mesh, dvec3(primitive.positions[primitive.indices[i + k]]));
-    const double distance = nearest_eye(seen, corners[0], corners[1], corners[2]);
-    longest = std::max(longest, length_of(corners[0], corners[1], corners[2]) / distance);
+    const double length = length_of(corners[0], corners[1], corners[2]);
+    if (!(nearest_eye_bound(seen, corners[0], length) - length / kTooLong < slack)) continue;
+    slack = std::min(slack, nearest_eye(seen, corners[0], corners[1], corners[2]) - length / kTooLong);
   }
-  return longest;
+  return slack;
 }
 
 Primitive refined_triangles(const Primitive& source, const SeenFrom& seen, const dvec3& origin) {

@@ -18,8 +18,8 @@ namespace gloam {
 /// 1/32 of a pixel of 1 mrad. Split triangles are at most kSplitLength times as long as they are away.
 inline constexpr double kTooLong = 1024.0;
 inline constexpr double kSplitLength = 64.0;
-/// Primitives with more triangles are not split.
-inline constexpr std::size_t kMostSplitTriangles = 4096;
+/// Most triangles that splitting adds to a primitive.
+inline constexpr std::size_t kMostAddedTriangles = 1 << 16;
 
 /// The longest edge of the triangles, in units of the mesh.
 [[nodiscard]] double longest_edge(const Primitive& primitive);
@@ -34,11 +34,13 @@ struct SeenFrom {
   double nearest = 0.0;         ///< nothing nearer to an eye is drawn; > 0
 };
 
-/// The largest ratio of a triangle's length to its distance from an eye.
-[[nodiscard]] double longest_ratio(const Primitive& primitive, const SeenFrom& seen);
+/// The least distance of a triangle from an eye, less its length / kTooLong. Below 0: it must be split. Otherwise none
+/// must be until an eye has moved by more than that.
+[[nodiscard]] double split_slack(const Primitive& primitive, const SeenFrom& seen);
 
-/// The same surface in smaller triangles, without cracks between them. Positions are relative to `origin`, a point of
-/// the mesh. Rigid primitives only.
+/// The same surface in smaller triangles, without cracks between them: triangles that are too long, and neighbours
+/// whose edges they share. All others stay as they are. Positions are relative to `origin`, a point of the mesh. Rigid
+/// primitives only.
 [[nodiscard]] Primitive refined_triangles(const Primitive& source, const SeenFrom& seen, const dvec3& origin);
 
 }  // namespace gloam

@@ -245,7 +245,8 @@ Status GpuScene::compact() {
   std::vector<GpuPrimitive*> primitives;
   for (std::vector<GpuPrimitive>& mesh : meshes_)
     for (GpuPrimitive& primitive : mesh) primitives.push_back(&primitive);
-  for (auto& [key, split] : split_) primitives.push_back(&split.primitive);
+  for (auto& [key, split] : split_)
+    if (split.split) primitives.push_back(&split.primitive);
   return streams_.compact(primitives);
 }
 

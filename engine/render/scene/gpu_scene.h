@@ -97,17 +97,20 @@ class GpuScene {
     std::uint64_t shown = kNever;
     bool in_flight = false;
   };
-  /// A primitive of an instance with split triangles.
+  /// A primitive of an instance that may have triangles to split.
   struct Split {
     GpuPrimitive primitive;
     std::uint32_t mesh = 0;
     std::uint64_t revision = 0;
     dmat4 world_from_mesh = dmat4(1.0);
-    std::vector<std::pair<dvec3, double>> eyes;  ///< and how far they may move before it is split again
+    double nearest = 0.0;                        ///< SeenFrom::nearest
+    std::vector<std::pair<dvec3, double>> eyes;  ///< and how far they may move before it is looked at again
+    bool split = false;                          ///< false: no triangle is too long, and `primitive` is empty
     bool used = false;
-    [[nodiscard]] bool serves(const dmat4& matrix, std::span<const dvec3> now) const;
+    [[nodiscard]] bool serves(const SeenFrom& seen) const;
   };
   void split(const Primitive& source, std::uint32_t mesh, const SeenFrom& seen, std::uint64_t revision, Split& made);
+  void keep_whole(std::uint32_t mesh, const SeenFrom& seen, std::uint64_t revision, double slack, Split& made);
   /// A mesh or an image whose copies are being staged.
   struct Staged {
     PackedAsset asset;  ///< without the data that was given to the uploads

@@ -48,8 +48,9 @@ double distance_to(const Primitive& source, const SeenFrom& seen, const dvec3& e
 
 }  // namespace
 
-bool GpuScene::Split::serves(const dmat4& matrix, std::span<const dvec3> now) const {
-  return world_from_mesh == matrix && std::ranges::all_of(now, [&](const dvec3& eye) {
+bool GpuScene::Split::serves(const SeenFrom& seen) const {
+  return world_from_mesh == seen.world_from_mesh && nearest == seen.nearest &&
+         std::ranges::all_of(seen.eyes, [&](const dvec3& eye) {
            return std::ranges::any_of(eyes,
                                       [&](const auto& own) { return glm::length(eye - own.first) <= own.second; });
          });
@@ -58,12 +59,12 @@ bool GpuScene::Split::serves(const dmat4& matrix, std::span<const dvec3> now) co
 const GpuPrimitive* GpuScene::split_primitive(Entity instance, std::uint32_t primitive) const {
   if (split_.empty()) return nullptr;
   const auto found = split_.find({instance.index, instance.generation, primitive});
-  return found == split_.end() ? nullptr : &found->second.primitive;
+  return found == split_.end() || !found->second.split ? nullptr : &found->second.primitive;
 }
 
 void GpuScene::split(const Primitive& source, std::uint32_t mesh, const SeenFrom& seen, std::uint64_t revision,
                      Split& made) {
-  if (!made.eyes.empty()) streams_.remove(made.primitive);
+  if (made.split) streams_.remove(made.primitive);
   const dvec3 origin(glm::inverse(seen.world_from_mesh) * dvec4(seen.eyes.front(), 1.0));
   PackedPrimitive packed = pack_primitive(refined_triangles(source, seen, origin), false);
   packed.primitive.origin = origin;
@@ -74,8 +75,17 @@ void GpuScene::split(const Primitive& source, std::uint32_t mesh, const SeenFrom
   for (std::uint32_t stream = 0; stream < MeshStreams::kStreams; ++stream)
     for (AssetUploads::BufferPart& part : streams_.parts(packed, stream)) job.parts.push_back(std::move(part));
   uploads_.add(std::move(job));
-  made = {std::move(packed.primitive), mesh, revision, seen.world_from_mesh, {}, true};
+  made = {std::move(packed.primitive), mesh, revision, seen.world_from_mesh, seen.nearest, {}, true, true};
   for (const dvec3& eye : seen.eyes) made.eyes.emplace_back(eye, 0.5 * distance_to(source, seen, eye));
+}
+
+void GpuScene::keep_whole(std::uint32_t mesh, const SeenFrom& seen, std::uint64_t revision, double slack, Split& made) {
+  if (made.split) {
+    streams_.remove(made.primitive);
+    removed_ = true;
+  }
+  made = {{}, mesh, revision, seen.world_from_mesh, seen.nearest, {}, false, true};
+  for (const dvec3& eye : seen.eyes) made.eyes.emplace_back(eye, slack);
 }
 
 void GpuScene::split_large_triangles(const World& world, std::span<const dvec3> eyes, double nearest) {
@@ -91,18 +101,21 @@ void GpuScene::split_large_triangles(const World& world, std::span<const dvec3> 
     const SeenFrom seen{transform.matrix, eyes, nearest};
     for (std::uint32_t p = 0; p < sources.size(); ++p) {
       const Primitive& source = sources[p];
-      if (source.indices.size() > 3 * kMostSplitTriangles || !source.joints.empty() || !source.morph_targets.empty())
-        continue;
+      if (!source.joints.empty() || !source.morph_targets.empty()) continue;
       if (!may_be_too_large(source, shown ? meshes_[m][p].longest_edge : longest_edge(source), seen)) continue;
       if (const auto found = split_.find({entity.index, entity.generation, p}); found != split_.end()) {
         Split& known = found->second;
-        if (known.mesh == m && known.revision == revision && known.serves(transform.matrix, eyes)) {
+        if (known.mesh == m && known.revision == revision && known.serves(seen)) {
           known.used = true;
           continue;
         }
       }
-      if (longest_ratio(source, seen) > kTooLong && std::abs(glm::determinant(transform.matrix)) > 0.0)
-        split(source, m, seen, revision, split_[{entity.index, entity.generation, p}]);
+      const double slack = split_slack(source, seen);
+      Split& made = split_[{entity.index, entity.generation, p}];
+      if (slack < 0.0 && std::abs(glm::determinant(transform.matrix)) > 0.0)
+        split(source, m, seen, revision, made);
+      else
+        keep_whole(m, seen, revision, std::max(slack, 0.0), made);
     }
   };
   if (!eyes.empty()) world.view<const MeshInstance, const WorldTransform>().each(split_instance);
@@ -111,8 +124,10 @@ void GpuScene::split_large_triangles(const World& world, std::span<const dvec3> 
       ++it;
       continue;
     }
-    streams_.remove(it->second.primitive);
-    removed_ = true;
+    if (it->second.split) {
+      streams_.remove(it->second.primitive);
+      removed_ = true;
+    }
     it = split_.erase(it);
   }
 }

@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/ext/matrix_transform.hpp>
+#include <limits>
 #include <span>
 
 #include "engine/core/hash.h"
 #include "engine/ecs/view.h"
 #include "engine/render/packing/caster_bounds.h"
+#include "engine/render/packing/refined_triangles.h"
 #include "engine/scene/components.h"
 #include "engine/scene/posing/animated_nodes.h"
 #include "engine/scene/resources.h"
@@ -124,6 +127,25 @@ void skin_positions(const Primitive& primitive, const Instance& instance, const 
   }
 }
 
+/// Where rays are relative to, and the size of the smallest thing.
+struct TracedFrom {
+  dvec3 origin = dvec3(0.0);
+  double smallest = 0.0;  ///< half diagonal
+};
+
+/// The primitive with smaller triangles, around `split_origin` in the mesh; null if none is so long that its rounding
+/// counts beside the smallest thing.
+std::shared_ptr<const Primitive> split_of(const Primitive& primitive, const dmat4& world_from_mesh,
+                                          const TracedFrom& from, dvec3& split_origin) {
+  const double determinant = glm::determinant(glm::dmat3(world_from_mesh));
+  const double length = half_diagonal(primitive.bounds, world_from_mesh);
+  if (!(length > kTooLong * from.smallest) || !std::isfinite(length) || !(std::abs(determinant) > 0.0)) return nullptr;
+  const SeenFrom seen{world_from_mesh, std::span(&from.origin, 1), from.smallest};
+  if (!(split_slack(primitive, seen) < 0.0)) return nullptr;
+  split_origin = dvec3(glm::inverse(world_from_mesh) * dvec4(from.origin, 1.0));
+  return std::make_shared<const Primitive>(refined_triangles(primitive, seen, split_origin));
+}
+
 void place_positions(const dmat4& world_from_mesh, const dvec3& origin, std::vector<vec3>& positions) {
   dmat4 relative = world_from_mesh;
   relative[3] -= dvec4(origin, 0.0);
@@ -175,8 +197,13 @@ void add_cut_out_data(const Primitive& primitive, const TextureSlot& slot, Trian
 }
 
 TriangleMesh make_mesh(const Instance& instance, std::uint32_t primitive_index, const SceneAssets& assets,
-                       std::span<const std::uint32_t> cut_out_of_material, const dvec3& origin) {
-  const Primitive& primitive = instance.mesh->primitives[primitive_index];
+                       std::span<const std::uint32_t> cut_out_of_material, const TracedFrom& from) {
+  const dvec3& origin = from.origin;
+  const Primitive& own = instance.mesh->primitives[primitive_index];
+  const bool rigid = instance.joints.empty() && own.morph_targets.empty();
+  dvec3 split_origin(0.0);
+  const auto split = rigid ? split_of(own, instance.world_from_mesh, from, split_origin) : nullptr;
+  const Primitive& primitive = split != nullptr ? *split : own;
   TriangleMesh mesh;
   mesh.positions = morphed_positions(primitive, instance.weights);
   const bool has_influences =
@@ -184,7 +211,7 @@ TriangleMesh make_mesh(const Instance& instance, std::uint32_t primitive_index, 
   if (!instance.joints.empty() && has_influences)
     skin_positions(primitive, instance, origin, mesh.positions);
   else
-    place_positions(instance.world_from_mesh, origin, mesh.positions);
+    place_positions(glm::translate(instance.world_from_mesh, split_origin), origin, mesh.positions);
   for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
     const std::span<const std::uint32_t> corners = std::span(primitive.indices).subspan(i, 3);
     if (std::ranges::all_of(corners, [&](std::uint32_t corner) { return corner < mesh.positions.size(); }))
@@ -193,14 +220,15 @@ TriangleMesh make_mesh(const Instance& instance, std::uint32_t primitive_index, 
   const bool morphed = !primitive.morph_targets.empty() && instance.weights.size() >= primitive.morph_targets.size();
   const bool skinned = !instance.joints.empty() && has_influences;
   mesh.surface = {.mesh = instance.mesh_index, .primitive = primitive_index, .mirrored = instance.mirrored};
+  mesh.surface.split = split;
   mesh.surface.normal_from_mesh = mat3(normal_matrix(glm::dmat3(instance.world_from_mesh)));
   if (morphed || skinned) mesh.surface.normals = deformed_normals(primitive, instance, morphed, skinned);
   if (primitive.material >= assets.materials.size()) return mesh;
   if (!morphed && !skinned && is_emissive(assets.materials[primitive.material])) {
-    const WorldBox box = world_box(primitive.bounds, instance.world_from_mesh);
+    const WorldBox box = world_box(own.bounds, instance.world_from_mesh);
     mesh.min = box.min;
     mesh.max = box.max;
-    mesh.emissive_reach_m = half_diagonal(primitive.bounds, instance.world_from_mesh);
+    mesh.emissive_reach_m = half_diagonal(own.bounds, instance.world_from_mesh);
   }
   mesh.cut_out = cut_out_of_material[primitive.material];
   if (mesh.cut_out != kNone) add_cut_out_data(primitive, assets.materials[primitive.material].base_color_texture, mesh);
@@ -298,12 +326,16 @@ SceneTriangles gather_triangles(const World& world, const std::optional<dvec3>& 
     const bool has_material = primitive.material < assets.materials.size();
     return !has_material || assets.materials[primitive.material].alpha_mode != AlphaMode::blend;
   };
+  TracedFrom from{triangles.origin, std::numeric_limits<double>::infinity()};
+  for (const Instance& instance : instances)
+    if (const double size = half_diagonal(instance.mesh->bounds, instance.world_from_mesh); size > 0.0)
+      from.smallest = std::min(from.smallest, size);
   std::vector<std::vector<TriangleMesh>> parts(instances.size());
   executor.parallel_for(instances.size(), 1, [&](JobRange range) {
     for (std::size_t i = range.begin; i < range.end; ++i)
       for (std::uint32_t p = 0; p < instances[i].mesh->primitives.size(); ++p)
         if (is_solid(instances[i].mesh->primitives[p]))
-          parts[i].push_back(make_mesh(instances[i], p, assets, cut_out_of_material, triangles.origin));
+          parts[i].push_back(make_mesh(instances[i], p, assets, cut_out_of_material, from));
   });
   for (std::size_t i = 0; i < parts.size(); ++i)
     for (TriangleMesh& mesh : parts[i])

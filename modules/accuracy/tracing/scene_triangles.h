@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -38,6 +39,7 @@ struct SurfaceSource {
   bool mirrored = false;               ///< the front of a triangle is where its corners run clockwise
   mat3 normal_from_mesh = mat3(1.0f);  ///< to the world's axes, any length
   std::vector<vec3> normals;           ///< deformed meshes: one per position in the world's axes, instead of the above
+  std::shared_ptr<const Primitive> split;  ///< with smaller triangles, in place of the mesh's own; null: none is large
 };
 
 /// Triangles with one alpha test.
@@ -70,7 +72,8 @@ struct SceneTriangles {
 
 /// The triangles of MeshInstances as a frame shows them after its systems: WorldTransform in double, morphed by
 /// MorphWeights, skinned by JointMatrices with up to four joints per vertex. Blended surfaces are left out. `origin`:
-/// world position; none: the middle of all instances that cast shadows.
+/// world position; none: the middle of all instances that cast shadows. Triangles of rigid meshes that are very long
+/// for their distance from it are split (refined_triangles.h): their corners are floats.
 [[nodiscard]] SceneTriangles gather_triangles(const World& world, const std::optional<dvec3>& origin,
                                               JobExecutor& executor, TracedInstances traced = TracedInstances::all);
 

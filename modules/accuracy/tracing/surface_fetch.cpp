@@ -9,6 +9,7 @@ namespace gloam {
 namespace {
 
 const Primitive& primitive_of(const SceneAssets& assets, const SurfaceSource& source) {
+  if (source.split != nullptr) return *source.split;
   return assets.meshes[source.mesh].primitives[source.primitive];
 }
 

@@ -63,6 +63,51 @@ TEST_F(NearestSurfaces, an_empty_world_has_none) {
   EXPECT_FALSE(front(0.0, 0.0).hit);
 }
 
+TEST_F(NearestSurfaces, a_tilted_ground_of_any_width_is_where_it_is) {
+  const dmat4 turned = glm::rotate(dmat4(1.0), 0.7, dvec3(0.36, 0.48, 0.8));
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  for (const double half : {100.0, 1e4, 1e6, 1e9}) {
+    SCOPED_TRACE(half);
+    World world;
+    prepare_scene_world(world);
+    test::SceneMaker maker{world};
+    Primitive ground = test::quad(1.0f);
+    for (vec3& position : ground.positions) position *= static_cast<float>(half);
+    for (std::size_t i = 0; i < ground.positions.size(); ++i)
+      ground.uv0[i] = vec2(ground.positions[i]) / static_cast<float>(half);
+    ground = test::finished(std::move(ground));
+    ground.material = maker.material(two_sided());
+    maker.draw(maker.mesh(std::move(ground)), turned);
+    maker.draw(maker.mesh(test::box(vec3(0.5f))), glm::translate(dmat4(1.0), dvec3(turned[2]) * -5.0));
+    const dvec3 normal(turned[2]), right(turned[0]), up(turned[1]);
+    const auto tracer = std::move(make_scene_tracer(world, *serial_, normal * 1.6)).value();
+    double worst = 0.0;
+    int missed = 0, blocked_above = 0;
+    for (int i = 0; i < 2000; ++i) {
+      // A point over the ground, and a ray down to it.
+      const double height = 0.02 + 3.0 * std::abs(unit(random));
+      const dvec3 from = right * (4.0 * unit(random)) + up * (4.0 * unit(random)) + normal * height;
+      dvec3 way = glm::normalize(right * unit(random) + up * unit(random) - normal * (0.2 + std::abs(unit(random))));
+      const SurfaceRay down{.origin = vec3(from - tracer->origin()), .direction = vec3(way)};
+      TracedSurface surface;
+      tracer->nearest(world.resource<SceneAssets>(), {&down, 1}, {&surface, 1});
+      const double expected = -height / glm::dot(normal, way);
+      missed += surface.hit ? 0 : 1;
+      if (surface.hit) worst = std::max(worst, std::abs(static_cast<double>(surface.distance_m) - expected));
+      // A ray from 2 mm above the ground up to the sky.
+      const ShadowRay sky{.origin = vec3(from - normal * (height - 0.002) - tracer->origin()),
+                          .direction = vec3(-way * 1e12)};
+      std::uint8_t blocked = 0;
+      tracer->occluded({&sky, 1}, {&blocked, 1});
+      blocked_above += blocked;
+    }
+    EXPECT_EQ(missed, 0);
+    EXPECT_EQ(blocked_above, 0);
+    EXPECT_LT(worst, 2e-4);
+  }
+}
+
 TEST_F(NearestSurfaces, rays_meet_the_front_faces_of_boxes) {
   const dvec3 middle(3.0, 1.0, -2.0), half(0.5, 1.0, 2.0);
   draw(test::box(vec3(half)), {}, glm::translate(dmat4(1.0), middle));
