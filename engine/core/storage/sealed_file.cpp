@@ -3,6 +3,7 @@
 #include "engine/core/storage/sealed_file.h"
 
 #if defined(__unix__) || defined(__APPLE__)
+#include <signal.h>
 #include <unistd.h>
 #endif
 
@@ -32,11 +33,57 @@ std::string checksum_of(std::string_view identity, std::string_view payload) {
   return digits;
 }
 
+/// Names of new files: .gloam-TARGET-HOST-PROCESS-UNIQUE.partial, hexadecimal; the first two are hashes. Empty where
+/// processes have no numbers.
+std::string partial_prefix([[maybe_unused]] const std::filesystem::path& target) {
+#if defined(__unix__) || defined(__APPLE__)
+  char host[256] = {};
+  if (gethostname(host, sizeof(host) - 1) != 0) return {};
+  char prefix[48];
+  std::snprintf(prefix, sizeof(prefix), ".gloam-%08llx-%08llx-",
+                static_cast<unsigned long long>(Hasher().text(target.filename().string()).digest() >> 32),
+                static_cast<unsigned long long>(Hasher().text(host).digest() >> 32));
+  return prefix;
+#else
+  return {};
+#endif
+}
+
+/// Removes new files of the target whose writers were killed: of processes of this host that no longer exist.
+void remove_left_files([[maybe_unused]] const std::filesystem::path& target) {
+#if defined(__unix__) || defined(__APPLE__)
+  const std::string prefix = partial_prefix(target);
+  std::error_code fault;
+  const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
+  std::filesystem::directory_iterator files(folder, fault);
+  if (prefix.empty() || fault) return;
+  for (; files != std::filesystem::directory_iterator(); files.increment(fault)) {
+    const std::string name = files->path().filename().string();
+    unsigned process = 0;
+    if (!name.starts_with(prefix) || !name.ends_with(".partial") ||
+        std::sscanf(name.c_str() + prefix.size(), "%x-", &process) != 1 || process == 0)
+      continue;
+    std::error_code ignored;
+    if (kill(static_cast<pid_t>(process), 0) != 0 && errno == ESRCH) std::filesystem::remove(files->path(), ignored);
+    if (fault) return;
+  }
+#endif
+}
+
+unsigned process_number() {
+#if defined(__unix__) || defined(__APPLE__)
+  return static_cast<unsigned>(getpid());
+#else
+  return 0;
+#endif
+}
+
 /// A file of a name that no other one has, in the folder of the file that it will replace. Unless it is renamed, it is
 /// removed in the end.
 class NewFile {
  public:
-  explicit NewFile(const std::filesystem::path& folder) {
+  explicit NewFile(const std::filesystem::path& target) {
+    const std::string prefix = partial_prefix(target);
     for (int attempt = 0; attempt < 100 && file_ == nullptr; ++attempt) {
       const std::uint64_t unique = Hasher()
                                        .value(std::chrono::steady_clock::now().time_since_epoch().count())
@@ -44,8 +91,9 @@ class NewFile {
                                        .value(attempt)
                                        .digest();
       char name[40];
-      std::snprintf(name, sizeof(name), ".gloam-%016llx.partial", static_cast<unsigned long long>(unique));
-      path_ = folder / name;
+      std::snprintf(name, sizeof(name), "%x-%016llx.partial", process_number(),
+                    static_cast<unsigned long long>(unique));
+      path_ = target.parent_path() / ((prefix.empty() ? ".gloam-" : prefix) + name);
       file_ = std::fopen(path_.string().c_str(), "wbx");  // x: fails if another process has made the file
       if (file_ == nullptr && errno != EEXIST) break;
     }
@@ -99,7 +147,8 @@ Status write_whole_file(const std::string& path, std::string_view bytes) {
   const std::filesystem::path folder = target.parent_path();
   if (!folder.empty()) std::filesystem::create_directories(folder, fault);
   if (!folder.empty() && fault) return failed(fault.message());
-  NewFile file(folder);
+  remove_left_files(target);
+  NewFile file(target);
   if (!file.is_open()) return failed(std::generic_category().message(errno));
   const std::filesystem::file_status old = std::filesystem::status(target, fault);
   if (std::filesystem::is_regular_file(old)) std::filesystem::permissions(file.path(), old.permissions(), fault);

@@ -12,7 +12,7 @@ namespace gloam {
 
 /// Writes or replaces a file as a whole: readers see all of it or the old file, even if the writer is killed, several
 /// processes write the same file, or the disk is full. Creates its folder. A link is followed. On an error nothing
-/// changes.
+/// changes. New files of the same target that killed writers have left beside it are removed.
 [[nodiscard]] Status write_whole_file(const std::string& path, std::string_view bytes);
 
 /// Writes a file with its identity and a checksum before the payload. `identity`: one line.

@@ -8,11 +8,13 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <iterator>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -113,6 +115,39 @@ TEST(SealedFile, that_does_not_fit_leaves_the_old_one_and_nothing_else) {
   EXPECT_EQ(read_sealed(path, "id"), "old");
   EXPECT_EQ(status_of_process(write_too_much(folder.path() + "/other")), 0);
   EXPECT_EQ(names_in(folder.path()), std::vector<std::string>{"sealed"});
+}
+
+TEST(SealedFile, removes_what_killed_writers_of_the_same_file_have_left) {
+  const test::TestFolder folder;
+  const std::string path = folder.path() + "/sealed";
+  const auto killed = [](const std::string& file) {  // by the first byte beyond the limit
+    const pid_t process = start_process([file] {
+      const rlimit limit{8192, 8192};
+      if (setrlimit(RLIMIT_FSIZE, &limit) != 0) return 2;
+      return write_sealed(file, "id", std::string(1'000'000, 'x')).ok() ? 0 : 1;
+    });
+    EXPECT_EQ(status_of_process(process), -1) << "killed";
+  };
+  killed(path);
+  ASSERT_EQ(names_in(folder.path()).size(), 1u);
+  const std::string left = names_in(folder.path())[0];
+  ASSERT_TRUE(left.starts_with(".gloam-") && left.ends_with(".partial")) << left;
+  // .gloam-TARGET-HOST-PROCESS-UNIQUE.partial: of another host, and of a process that runs.
+  const std::size_t host = left.find('-', 7) + 1, process = left.find('-', host) + 1;
+  std::string of_other_host = left, of_this_process = left;
+  of_other_host[host] = left[host] == '0' ? '1' : '0';
+  char number[16];
+  std::snprintf(number, sizeof(number), "%x", static_cast<unsigned>(getpid()));
+  of_this_process.replace(process, left.find('-', process) - process, number);
+  for (const std::string& name : {of_other_host, of_this_process})
+    ASSERT_TRUE(write_whole_file(folder.path() + "/" + name, "part").ok());
+
+  ASSERT_TRUE(write_sealed(folder.path() + "/other", "id", "payload").ok());
+  EXPECT_TRUE(std::filesystem::exists(folder.path() + "/" + left)) << "of another target";
+  ASSERT_TRUE(write_sealed(path, "id", "payload").ok());
+  const std::vector<std::string> found = names_in(folder.path());
+  EXPECT_EQ(std::set<std::string>(found.begin(), found.end()),
+            (std::set<std::string>{"sealed", "other", of_other_host, of_this_process}));
 }
 
 TEST(SealedFile, that_a_link_names_is_replaced_and_the_link_stays) {
