@@ -189,14 +189,14 @@ class Scale(ProgramCase):
         self.same(lawn, "--frames", "20", physics=True)
 
     def test_grass_in_the_sun(self):
-        self.same(lambda: lawn(sun=True), "--frames", "20", "--dt", "0.05", physics=True, places=())
+        self.same(lambda: lawn(sun=True), "--frames", "20", "--dt", "0.05", physics=True, scales=SCALES if LONG else (1000.0,), places=())
 
     def test_grass_of_an_orthographic_camera(self):
         def flat():
             scene = lawn()
             scene.cameras[0] = {"type": "orthographic", "orthographic": {"xmag": 0.9, "ymag": 0.6, "znear": 0.05, "zfar": 9.0}}
             return scene
-        self.same(flat, "--frames", "12", physics=True, places=())
+        self.same(flat, "--frames", "12", physics=True, scales=SCALES if LONG else (0.001,), places=())
 
     def test_bias_of_rasterisers_and_other_filters(self):
         for setting in ("shadows.bias=hardware", "shadows.filter=pcss", "shadows.depth=d16"):
@@ -225,7 +225,7 @@ class Scale(ProgramCase):
                                indices + list(range(4, 4 + len(small))), material)
             return scene
         first, rows = self.picture("first", town(6.0)), 60
-        for half in (1e5, 1e9):
+        for half in (1e5, 1e9) if LONG else (1e9,):
             with self.subTest(half=half):
                 other = self.picture("wide", town(half))
                 steps = [abs(a - b) for a, b in zip(first.rgb[-3 * 160 * rows:], other.rgb[-3 * 160 * rows:])]
@@ -246,7 +246,7 @@ class Scale(ProgramCase):
             self.expect(0, "render", path.name, "--size", "160x108", "--out", name + ".png", "--view", "shadow_reference:key")
             return read_png(self.folder / (name + ".png"))
         first, rows = slanted("first", 6.0), 60
-        for half in (1e4, 1e6, 1e9):
+        for half in (1e4, 1e6, 1e9) if LONG else (1e4, 1e9):
             with self.subTest(half=half):
                 steps = [abs(a - b) for a, b in zip(first.rgb[-3 * 160 * rows:], slanted("wide", half).rgb[-3 * 160 * rows:])]
                 self.assertLessEqual(sum(steps) / len(steps), 0.5)
