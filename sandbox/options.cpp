@@ -124,7 +124,8 @@ std::vector<CommandApp> add_commands(CLI::App& root, Options& options, RawTexts&
   bake->add_flag("--beside", options.beside, "Write the captures beside the scene file, not to the cache");
   CLI::App* cost = add(Command::cost, "cost", "Measure error and time of each knob's values");
   cost->add_option("SCENE", options.scene, scene_text)->required();
-  cost->add_option("--knobs", options.knobs, "Measure only these knobs, comma-separated")->type_name("A,B");
+  cost->add_option("--knobs", options.knobs, "Measure only these knobs, comma-separated; * stands for any characters")
+      ->type_name("A,B");
   cost->add_flag("--quick", options.quick, "Fewer repetitions, and 320x180 without --size");
   CLI::App* bench = add(Command::bench, "bench", "Run benchmarks: the papers' tables and the CPU systems");
   bench->add_option("NAME", options.names, "Benchmarks to run: the id NAME, or all ids that begin with NAME and a dot");

@@ -104,7 +104,8 @@ inline constexpr std::uint32_t kQuickSamples = 64;
 inline constexpr std::uint32_t kQuickWidth = 320;
 inline constexpr std::uint32_t kQuickHeight = 180;
 
-/// The knobs named in a comma-separated list; all if it is empty. Usage error that lists the valid names.
+/// The knobs named in a comma-separated list, in which `*` stands for any characters; all if the list is empty. Usage
+/// error that lists the valid names if nothing has a name of the list.
 [[nodiscard]] Result<std::vector<std::string>> choose_knobs(const KnobRegistry& knobs, std::string_view list);
 
 /// Texts of the values that get a row, in order and without duplicates: Knob::ledger_values or all choices, including

@@ -7,6 +7,27 @@
 
 namespace gloam {
 
+namespace {
+
+/// Whether a name is one that a pattern stands for: `*` stands for any characters.
+bool matches(std::string_view name, std::string_view pattern) {
+  std::size_t star = pattern.find('*');
+  if (star == std::string_view::npos) return name == pattern;
+  if (!name.starts_with(pattern.substr(0, star))) return false;
+  name.remove_prefix(star);
+  while (true) {
+    pattern.remove_prefix(star + 1);
+    star = pattern.find('*');
+    if (star == std::string_view::npos) return name.ends_with(pattern);
+    // The first place for the part between two stars leaves the most for the rest.
+    const std::size_t place = name.find(pattern.substr(0, star));
+    if (place == std::string_view::npos) return false;
+    name.remove_prefix(place + star);
+  }
+}
+
+}  // namespace
+
 Result<std::vector<std::string>> choose_knobs(const KnobRegistry& knobs, std::string_view list) {
   std::vector<std::string> names;
   for (const Knob& knob : knobs.knobs()) names.push_back(knob.name);
@@ -14,10 +35,14 @@ Result<std::vector<std::string>> choose_knobs(const KnobRegistry& knobs, std::st
   std::vector<std::string> chosen;
   while (true) {
     const std::size_t comma = std::min(list.find(','), list.size());
-    const std::string name(list.substr(0, comma));
-    if (knobs.find(name) == nullptr)
-      return Error{ErrorKind::usage, "unknown knob '" + name + "'; " + valid_names(name, names)};
-    if (std::find(chosen.begin(), chosen.end(), name) == chosen.end()) chosen.push_back(name);
+    const std::string pattern(list.substr(0, comma));
+    bool found = false;
+    for (const std::string& name : names) {
+      if (!matches(name, pattern)) continue;
+      found = true;
+      if (std::find(chosen.begin(), chosen.end(), name) == chosen.end()) chosen.push_back(name);
+    }
+    if (!found) return Error{ErrorKind::usage, "unknown knob '" + pattern + "'; " + valid_names(pattern, names)};
     if (comma == list.size()) return chosen;
     list.remove_prefix(comma + 1);
   }

@@ -429,7 +429,13 @@ TEST_F(MeasureCosts, knobs_are_chosen_by_name) {
   const KnobRegistry& knobs = subject_.knobs();
   EXPECT_THAT(*choose_knobs(knobs, ""), ElementsAre("fake.samples", "fake.look", "fake.count"));
   EXPECT_THAT(*choose_knobs(knobs, "fake.look,fake.samples,fake.look"), ElementsAre("fake.look", "fake.samples"));
-  for (const char* list : {"nope", "fake.look,", ",fake.look", "fake.look,,fake.samples", "fake.look fake.samples"}) {
+  EXPECT_THAT(*choose_knobs(knobs, "fake.*"), ElementsAre("fake.samples", "fake.look", "fake.count"));
+  EXPECT_THAT(*choose_knobs(knobs, "*.look,f*s"), ElementsAre("fake.look", "fake.samples"));
+  EXPECT_THAT(*choose_knobs(knobs, "*"), ElementsAre("fake.samples", "fake.look", "fake.count"));
+  EXPECT_THAT(*choose_knobs(knobs, "fake.**t"), ElementsAre("fake.count"));
+  EXPECT_FALSE(choose_knobs(knobs, "fake.samples*s").ok()) << "no character stands for two";
+  for (const char* list : {"nope", "fog.*", "*.loo", "ake*", "fake.look,", ",fake.look", "fake.look,,fake.samples",
+                           "fake.look fake.samples"}) {
     const auto chosen = choose_knobs(knobs, list);
     ASSERT_FALSE(chosen.ok()) << list;
     EXPECT_EQ(chosen.error().kind, ErrorKind::usage);
