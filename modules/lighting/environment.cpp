@@ -3,6 +3,7 @@
 #include "modules/lighting/environment.h"
 
 #include "engine/scene/resources.h"
+#include "engine/scene/transmission.h"
 #include "modules/lighting/outputs.h"
 #include "shaders/lighting/lighting_shared.h"
 
@@ -17,6 +18,7 @@ const ShadingInputs& shading_inputs(FrameBuilder& frame) {
       vec4(sky.sky_zenith * scale, 0.0f), vec4(sky.sky_horizon * scale, 0.0f), vec4(sky.sky_ground * scale, 0.0f)});
   inputs.specular_ambient_taken = frame.find<SpecularAmbientTaken>() != nullptr;
   inputs.diffuse_light_wanted = frame.find<DiffuseLightWanted>() != nullptr;
+  inputs.transmission = lets_light_through(frame.world());
   if (const LightsOutputs* lights = frame.find<LightsOutputs>()) {
     inputs.directional_count = lights->directional_count;
     inputs.outputs = *lights;

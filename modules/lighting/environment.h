@@ -13,6 +13,7 @@ struct ShadingInputs {
   std::uint32_t directional_count = 0;
   bool specular_ambient_taken = false;  ///< see SpecularAmbientTaken
   bool diffuse_light_wanted = false;    ///< see DiffuseLightWanted
+  bool transmission = false;            ///< lets_light_through()
   /// Of the lights module. If the scene has no light: a block without lights, and default values.
   LightsOutputs outputs;
 };

@@ -3,6 +3,7 @@
 #include "modules/lighting/outputs.h"
 
 #include "engine/math/packing.h"
+#include "engine/scene/transmission.h"
 #include "modules/lighting/environment.h"
 #include "modules/shadows/outputs.h"
 
@@ -32,7 +33,9 @@ ForwardLighting forward_lighting(const LightsOutputs* lights, const ShadowsOutpu
 }
 
 ForwardLighting forward_lighting(const FrameBuilder& frame) {
-  return forward_lighting(frame.find<LightsOutputs>(), frame.find<ShadowsOutputs>());
+  ForwardLighting version = forward_lighting(frame.find<LightsOutputs>(), frame.find<ShadowsOutputs>());
+  if (lets_light_through(frame.world())) version.constants.set_if_present("kTransmission", 1u);
+  return version;
 }
 
 void read_lighting(ShaderPass& pass, FrameBuilder& frame) {

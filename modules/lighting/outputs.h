@@ -41,8 +41,9 @@ struct SpecularAmbientTaken {};
 struct DiffuseLightWanted {};
 
 /// Diffuse light intensity of the view: the illuminance, in lux · RenderView::light_scale, of the opaque surface at
-/// each pixel. It is the sum of every light's illuminance times the cosine of incidence and its visibility, plus π ·
-/// occlusion · hemisphere_radiance() of the surroundings. Base colour and emission do not enter, so a diffuse surface
+/// each pixel. It is the sum of every light's illuminance times the cosine of incidence and its visibility, or for
+/// light from behind light_through() times the transmittance (shaders/lighting/brdf_api.glsl), plus π · occlusion ·
+/// hemisphere_radiance() of the surroundings. Base colour and emission do not enter, so a diffuse surface
 /// reflects base colour / π of it. rgba16f of the view's size, at most 65504; sky pixels are 0; alpha is 1.
 /// (r11f_g11f_b10f would take half of the memory, but its steps of up to 3 % show in ratios of two lights.)
 ///
@@ -101,7 +102,7 @@ enum class ForwardShadows : std::uint8_t {
 struct ForwardLighting {
   bool tiled = false;  ///< GLOAM_FORWARD_TILED may be used
   ForwardShadows shadows = ForwardShadows::none;
-  gpu::SpecConstants constants = {};  ///< of versions with shadows or cookies
+  gpu::SpecConstants constants = {};  ///< those that the shader has apply
 };
 
 /// The version that these inputs call for; either may be null.

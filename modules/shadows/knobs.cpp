@@ -9,7 +9,7 @@ namespace gloam {
 void add_shadow_knobs(KnobRegistry& registry) {
   add_knobs(registry, "shadows", kShadowMode, kShadowClassify, kShadowFilter, kShadowKernel, kShadowNear, kShadowMips,
             kShadowMipOperator, kSquareShadowKernel, kShadowReceiverPlane, kShadowTerminator, kShadowDepth16,
-            kOrientedShadowBias, kShadowBiasMm, kShadowBiasUnits, kVisibilityLevels, kShadowAtlas,
+            kOrientedShadowBias, kSubsurfaceBacks, kShadowBiasMm, kShadowBiasUnits, kVisibilityLevels, kShadowAtlas,
             kShadowTexelsPerPixel, kSimplifiedCasters, kShadowSlotLimit, kShadowPairLimit, kShadowEarlyOuts);
 }
 
@@ -23,6 +23,7 @@ ShadowKnobs shadow_knobs(const KnobRegistry& registry) {
   knobs.square = registry.value(kSquareShadowKernel);
   knobs.receiver_plane = registry.value(kShadowReceiverPlane);
   knobs.terminator = registry.value(kShadowTerminator);
+  knobs.subsurface_backs = registry.value(kSubsurfaceBacks);
   knobs.d16 = registry.value(kShadowDepth16);
   // 16-bit depths have no spare bits for coverage.
   if (knobs.d16 && knobs.mip_operator == GLOAM_SHADOW_MIPS_COVERAGE) knobs.mip_operator = GLOAM_SHADOW_MIPS_NEAREST;
@@ -64,6 +65,8 @@ gpu::SpecConstants shadow_constants(const ShadowKnobs& knobs, std::uint32_t filt
   constants.set_if_present("kCoverage", knobs.mip_operator == GLOAM_SHADOW_MIPS_COVERAGE ? 1u : 0u);
   constants.set_if_present("kNear", knobs.near);
   constants.set_if_present("kTerminator", knobs.terminator ? 1u : 0u);
+  constants.set_if_present("kTransmission", knobs.transmission ? 1u : 0u);
+  constants.set_if_present("kSubsurfaceBias", knobs.subsurface_backs ? 1u : 4u);
   return constants;
 }
 

@@ -82,6 +82,16 @@ inline constexpr ChoiceKnob<bool> kOrientedShadowBias{
         "away from the light, depending on which side of the surface faces it (oriented)",
     .choices = {{"hardware", false}, {"oriented", true}},
     .default_value = true};
+/// Values of kSubsurfaceBias (shadows_api.glsl) are 4 and 1.
+inline constexpr ChoiceKnob<bool> kSubsurfaceBacks{
+    .name = "shadows.subsurface",
+    .meaning =
+        "how bodies with a subsurface material are kept from shadowing themselves where they are thin: drawn whole, "
+        "with four times the bias (larger_bias: 8 mm, 1.6 extinction lengths of 5 mm, beyond which less than 20 % of "
+        "the light comes through), or without the faces toward the light and with the usual bias, because no other "
+        "face of the body is nearer than its lit side (back_faces); the map then holds no thickness: all of "
+        "a body lets light through as a sheet does",
+    .choices = {{"larger_bias", false}, {"back_faces", true}}};
 inline constexpr NumberKnob kShadowBiasMm{.name = "shadows.bias_mm",
                                           .meaning = "depth offset of shadows.bias=oriented",
                                           .max = 20.0,
@@ -159,10 +169,12 @@ struct ShadowKnobs {
   std::uint32_t levels = 255;  ///< steps of a visibility: 15 or 255; 0: not quantised
   std::uint32_t atlas_size = 4096;
   float texels_per_pixel = 3.0f;
-  bool simplified = false;  ///< casters are drawn with their simplified triangles
-  std::uint32_t near = 1;   ///< estimate of near blockers: 0 off, 1 wide, 2 all
-  bool terminator = false;  ///< smooth-shaded surfaces are judged at their smooth surface
-  bool early_outs = true;   ///< a filter stops as soon as the result is known; false only for measurements
+  bool simplified = false;        ///< casters are drawn with their simplified triangles
+  std::uint32_t near = 1;         ///< estimate of near blockers: 0 off, 1 wide, 2 all
+  bool terminator = false;        ///< smooth-shaded surfaces are judged at their smooth surface
+  bool subsurface_backs = false;  ///< closed bodies that light passes through are drawn without their lit side
+  bool transmission = false;      ///< the scene has materials that light passes through
+  bool early_outs = true;         ///< a filter stops as soon as the result is known; false only for measurements
 };
 
 /// The knobs that systems read; a view resource.

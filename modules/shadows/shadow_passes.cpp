@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "engine/render/worlds/world_id.h"
+#include "engine/scene/transmission.h"
 #include "modules/shadows/filter/cookies.h"
 #include "modules/shadows/filter/uploads.h"
 #include "modules/shadows/final_lists/buffers.h"
@@ -35,8 +36,11 @@ bool has_placed_face(const ViewFaces& view_faces) {
 void set_constants(const ShadowKnobs& knobs, std::uint32_t filter, ShadowsOutputs& outputs) {
   outputs.cookies_only = filter == kNoShadows;
   outputs.standard = filter == kContactHardening && knobs.kernel == kStandardKernel;
+  outputs.transmission = knobs.transmission;
   // Cookies do not depend on knobs: default values avoid further pipelines.
-  outputs.constants = shadow_constants(outputs.cookies_only ? ShadowKnobs{} : knobs, filter);
+  ShadowKnobs used = outputs.cookies_only ? ShadowKnobs{} : knobs;
+  used.transmission = knobs.transmission;
+  outputs.constants = shadow_constants(used, filter);
   outputs.constants.set_if_present("kCookieLights", looked_up_cookies(outputs.cookie_lights));
 }
 
@@ -70,12 +74,14 @@ ShadowKnobs knobs_of(const FrameBuilder& frame) {
   ShadowKnobs knobs = shadow_knobs(frame.knobs());
   const GeometryOutputs* geometry = frame.find<GeometryOutputs>();
   knobs.terminator = knobs.terminator && geometry != nullptr && geometry->smooth_surfaces;
+  knobs.transmission = lets_light_through(frame.world());
   knobs.atlas_size = frame.world().view_resource<ViewFaces>(frame.view().id).atlas.size();
   return knobs;
 }
 
 ShadowsOutputs with_knobs(const ShadowsOutputs& now, const KnobRegistry& registry) {
-  const ShadowKnobs knobs = shadow_knobs(registry);
+  ShadowKnobs knobs = shadow_knobs(registry);
+  knobs.transmission = now.transmission;
   ShadowsOutputs other = now;
   set_constants(knobs, knobs.enabled ? knobs.filter : kNoShadows, other);
   if (other.cookies_only || !knobs.deferred || knobs.levels == 0)

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/core/text/nearest_name.h"
+#include "sandbox/scenes/lamps/backlight.h"
 #include "sandbox/scenes/lamps/closeups.h"
 #include "sandbox/scenes/lamps/lanterns.h"
 #include "sandbox/scenes/lamps/many_lights.h"
@@ -40,6 +41,8 @@ constexpr BuiltinScene kScenes[] = {
     {"lens",
      "depth of field through a round and a hexagonal aperture: pieces on a table, a wire, and lamps far and near",
      &build_lens_scene},
+    {"backlight", "light through paper, leaves, wax and jade, with a lamp and a low sun behind them",
+     &build_backlight_scene},
 };
 
 }  // namespace

@@ -64,8 +64,8 @@ ShadowPoint shadow_point(LightOfPair l, ShadowReceiver r) {
   return sun_shadow_point(s, r.subsurface);
 }
 
-bool gives_light(LightOfPair l, vec3 position, vec3 normal) {
-  return sun_gives(closeup.brightest, closeup.direction, normal);
+float light_cosine(LightOfPair l, vec3 position, vec3 normal) {
+  return sun_cosine(closeup.brightest, closeup.direction, normal);
 }
 #else
 struct LightOfPair {
@@ -99,10 +99,11 @@ ShadowPoint shadow_point(LightOfPair l, ShadowReceiver r) {
   return local_shadow_point(shadow, r);
 }
 
-bool gives_light(LightOfPair l, vec3 position, vec3 normal) { return local_light_gives(l.light, position, normal); }
+float light_cosine(LightOfPair l, vec3 position, vec3 normal) { return local_light_cosine(l.light, position, normal); }
 #endif
 
-// The lesser of the pixel's old visibility and the close-up visibility, in `steps`; returns the pixel's flags.
+// The lesser of the pixel's old visibility and the close-up visibility, in `steps`; returns the pixel's flags. Of two
+// transmittances the lesser is that of the nearer depth, as if one map held both.
 uint keep_visibility(uint pixel, PixelOfPair p, float visibility, out uint steps) {
   uint old = old_words[pixel * kVisibilityBits >> 5] >> (pixel * kVisibilityBits & 31u) & kMostSteps;
   steps = p.point.live ? min(visibility_steps(p, visibility), old) : old;

@@ -13,6 +13,11 @@ float half_angle_of(uint light, vec3 offset) {
   return radius > 0.0 ? min(radius * inversesqrt(max(dot(offset, offset), 1e-12)), 1.0) : 0.0;
 }
 
+#include "shaders/render/transmission_api.glsl"
+
+// Extinction length of the shaded surface; 0: no light passes. Set before lights are summed.
+float extinction_m = 0.0;
+
 #ifdef GLOAM_SHADOWS_BINDING
 #include "shaders/shadows/shadows_api.glsl"
 #elif defined(GLOAM_COOKIES_BINDING)
@@ -60,7 +65,8 @@ bool gives_light(vec3 illuminance, vec3 normal, vec3 to_light) {
 #ifdef GLOAM_LIGHT_FROM_BEHIND
   return max(illuminance.r, max(illuminance.g, illuminance.b)) > 0.0;
 #else
-  return max(illuminance.r, max(illuminance.g, illuminance.b)) > 0.0 && dot(normal, to_light) > 0.0;
+  bool used = dot(normal, to_light) > 0.0 || extinction_behind(extinction_m, normal, to_light) > 0.0;
+  return max(illuminance.r, max(illuminance.g, illuminance.b)) > 0.0 && used;
 #endif
 }
 
@@ -70,14 +76,16 @@ bool never() { return shadow_block.atlas_size < 0.0; }
 vec3 arriving_local(vec3 illuminance, uint light, vec3 light_position, vec3 normal, vec3 to_light) {
   if (gives_light(illuminance, normal, to_light)) do {
       illuminance =
-          through_cookie(illuminance, light, light_position) * local_visibility(light, light_position, receiver);
+          through_cookie(illuminance, light, light_position) *
+          local_visibility(light, light_position, receiver, extinction_behind(extinction_m, normal, to_light));
     } while (never());
   return illuminance;
 }
 
 vec3 arriving_directional(vec3 illuminance, uint light, vec3 light_direction, vec3 normal) {
   if (gives_light(illuminance, normal, -light_direction)) do {
-      illuminance *= directional_visibility(light, light_direction, receiver);
+      illuminance *= directional_visibility(light, light_direction, receiver,
+                                            extinction_behind(extinction_m, normal, -light_direction));
     } while (never());
   return illuminance;
 }

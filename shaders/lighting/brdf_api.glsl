@@ -165,4 +165,16 @@ vec3 reflected(ShadingPoint p, vec3 to_light, vec3 illuminance) {
   return reflected_disc(p, to_light, illuminance, 0.0);
 }
 
+// Illuminance that light from behind leaves on the visible side, before the transmittance of the body: times `diffuse`
+// it is the radiance, the same to all sides (Lambert). Of the light that falls on the far side, that side reflects the
+// Fresnel term and then the albedo; the rest enters, and leaves tinted by the albedo. So albedo · (2 − albedo) ≤ 1 of
+// it leaves the body, both sides together. A white body reflects all of it.
+vec3 light_through(ShadingPoint p, vec3 to_light, vec3 illuminance) {
+  float n_dot_l = clamp(-dot(p.normal, to_light), 0.0, 1.0);
+  float one = 1.0 - n_dot_l;
+  float one2 = one * one;
+  vec3 fresnel = p.f0 + (1.0 - p.f0) * (one2 * one2 * one);
+  return (illuminance * n_dot_l) * (1.0 - fresnel) * (1.0 - kPi * p.diffuse);
+}
+
 #endif

@@ -21,6 +21,7 @@
 //
 // Usage:
 //   set_receiver(position, face_normal, subsurface);
+//   extinction_m = …;  if light passes through the surface, see transmission_api.glsl
 //   vec3 light = emissive + ambient(environment, p, roughness, occlusion);
 //   add_forward_lights(light, p, pixel);
 
@@ -52,7 +53,10 @@ vec3 response_to(ShadingPoint p, vec3 to_light, vec3 illuminance, float half_ang
 #ifdef GLOAM_FORWARD_RESPONSE
   return light_response(p, to_light, illuminance);
 #else
-  return reflected_disc(p, to_light, illuminance, half_angle);
+  vec3 light = reflected_disc(p, to_light, illuminance, half_angle);
+  if (extinction_behind(extinction_m, p.normal, to_light) > 0.0)
+    light += p.diffuse * light_through(p, to_light, illuminance);
+  return light;
 #endif
 }
 

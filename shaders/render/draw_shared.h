@@ -29,7 +29,8 @@ struct MaterialConstants {
   vec4 base_color;
   vec4 emissive_cutoff;   // rgb cd/m², alpha cutoff
   vec4 factors;           // metallic, roughness, normal scale, occlusion strength
-  vec4 extras;            // subsurface 0 or 1, reflectivity (< 0: from metallic and roughness), 0, 0
+  vec4 extras;            // subsurface 0 or 1, reflectivity (< 0: from metallic and roughness), square root of the
+                          // extinction length in metres (0: no light passes), 0
   vec4 uv_transform[10];  // two rows (xyz) per texture: base, normal, metallic-roughness, occlusion, emissive; w of row
                           // 0: uv set
 };

@@ -8,7 +8,8 @@
 //               (in dark colours square roots are as precise as sRGB; they take one instruction)
 //   normals     rg32_uint    octahedral shading normal, octahedral face normal
 //   material    rgba8_unorm  roughness, metallic, occlusion, reflectivity
-//   emissive    rgba16_float cd/m² · ViewConstants::light_scale
+//   emissive    rgba16_float cd/m² · ViewConstants::light_scale, a = square root of the extinction length in metres of
+//               materials that let light through (transmission_api.glsl), 0 for others
 //   depth       d32          reversed Z, 0 = sky
 //   smooth surfaces  rg32_uint  smooth_surface_api.glsl; drawn by the renderer alone, only in frames that need it
 //   motion      rg32f        pixels since the previous frame (motion_api.glsl); only in frames that need it
@@ -17,7 +18,8 @@
 //   layout(location = 0) out vec4 out_base_color;   encode_base_color(base_color, subsurface), or with spread
 //   layout(location = 1) out uvec4 out_normals;     encode_normals(normal, face_normal), both towards the viewer
 //   layout(location = 2) out vec4 out_material;     vec4(roughness, metallic, occlusion, reflectivity), each 0…1
-//   layout(location = 3) out vec4 out_emissive;     vec4(emissive, 0.0), emissive in cd/m² · light_scale
+//   layout(location = 3) out vec4 out_emissive;     vec4(emissive, 0.0), emissive in cd/m² · light_scale; alpha above 0
+//                                                   only with subsurface
 //   layout(location = 4) out vec2 out_motion;       screen_motion(…)
 
 #include "shaders/common/math.glsl"

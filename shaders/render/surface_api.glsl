@@ -38,6 +38,7 @@ struct Surface {
   float normal_spread;  // normal_spread_in_pixel
   vec3 emissive;        // cd/m² · light_scale
   bool subsurface;
+  float extinction_root;  // square root of the extinction length in metres; 0: no light passes
 };
 
 vec2 texture_uv(int slot) {
@@ -116,6 +117,7 @@ Surface fetch_surface_unscaled(vec3 to_viewer, float normal_variance, float ligh
   s.emissive = material.emissive_cutoff.rgb * light_scale;
   if ((kSurface & GLOAM_SURFACE_EMISSIVE_TEXTURE) != 0u) s.emissive *= texture(emissive_texture, texture_uv(4)).rgb;
   s.subsurface = material.extras.x > 0.5;
+  s.extinction_root = material.extras.z;
   float smoothness = 1.0 - s.roughness;
   s.reflectivity = material.extras.y >= 0.0 ? material.extras.y : smoothness * mix(0.5, 1.0, s.metallic);
   s.normal_spread = normal_variance > 0.0 ? normal_spread_in_pixel(s.roughness, s.normal, normal_variance) : 0.0;

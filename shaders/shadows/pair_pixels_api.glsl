@@ -15,10 +15,11 @@
 // requires. Afterwards define
 //   struct LightOfPair: the values that all pixels share,
 //   ShadowPoint shadow_point(LightOfPair l, ShadowReceiver r),
-//   bool gives_light(LightOfPair l, vec3 position, vec3 normal), and
+//   float light_cosine(LightOfPair l, vec3 position, vec3 normal), see local_light_cosine(), and
 //   uint keep_visibility(uint pixel, PixelOfPair p, float visibility, out uint steps), which gets a pixel's visibility
 //     and returns flags that are combined into `found`, and the steps to store in the slot,
-// and include pair_pixels_asked_api.glsl. Uses bindings 0, 3 to 6 and 21.
+// and include pair_pixels_asked_api.glsl. Uses bindings 0, 3 to 6, 21 and 22. For pixels that the light falls on from
+// behind, and whose material lets light through, visibility means transmittance.
 
 layout(local_size_x = 64, local_size_x_id = 0) in;  // 8, 16, 32 or 64
 
@@ -29,6 +30,7 @@ layout(set = 0, binding = 3) uniform sampler2D depth_image;
 layout(set = 0, binding = 4) uniform usampler2D normal_image;
 layout(set = 0, binding = 5) uniform sampler2D base_color_image;
 layout(set = 0, binding = 6) uniform sampler2D light_texels;
+layout(set = 0, binding = 22) uniform sampler2D emissive_image;
 
 const uint kThreads = gl_WorkGroupSize.x;
 const uint kPixels = uint(GLOAM_SLOT_PIXELS) / kThreads;
@@ -49,19 +51,20 @@ uvec2 own_words = uvec2(0u);
 // A pixel of the tile, seen from the light.
 struct PixelOfPair {
   ShadowPoint point;
-  bool matters;  // the light would illuminate the pixel without shadows
+  bool matters;        // the light would illuminate the pixel without shadows
+  float extinction_m;  // extinction_behind()
 };
 
-// Whether a light would illuminate a surface without shadows.
-bool local_light_gives(LocalLight light, vec3 position, vec3 normal) {
+// Cosine between a surface's normal and the direction to a light; 0 if the light does not reach the surface.
+float local_light_cosine(LocalLight light, vec3 position, vec3 normal) {
   vec3 to_light;
   vec3 illuminance = local_illuminance(light, position, to_light);
-  return max(illuminance.r, max(illuminance.g, illuminance.b)) > 0.0 && dot(normal, to_light) > 0.0;
+  return max(illuminance.r, max(illuminance.g, illuminance.b)) > 0.0 ? dot(normal, to_light) : 0.0;
 }
 
 // The same for a directional light. brightest: lux. direction: the way it shines.
-bool sun_gives(float brightest, vec3 direction, vec3 normal) {
-  return brightest > 0.0 && dot(normal, -direction) > 0.0;
+float sun_cosine(float brightest, vec3 direction, vec3 normal) {
+  return brightest > 0.0 ? dot(normal, -direction) : 0.0;
 }
 
 // Steps of visibility: 0 … kMostSteps.

@@ -14,7 +14,10 @@ PixelOfPair pixel_of_pair(LightOfPair light, uvec2 pixel) {
   uvec2 normals = texelFetch(normal_image, at, 0).xy;
   bool subsurface = texelFetch(base_color_image, at, 0).a > 0.5;
   PixelOfPair p;
-  p.matters = depth > 0.0 && all(lessThan(pixel, view.size)) && gives_light(light, position, unpack_normal(normals.x));
+  float cosine = light_cosine(light, position, unpack_normal(normals.x));
+  p.extinction_m = 0.0;
+  if (kTransmission != 0u && cosine < 0.0) p.extinction_m = decode_extinction(texelFetch(emissive_image, at, 0).a);
+  p.matters = depth > 0.0 && all(lessThan(pixel, view.size)) && (cosine > 0.0 || p.extinction_m > 0.0);
   p.point = shadow_point(light, pixel_receiver(position, unpack_normal(normals.y), subsurface, at));
   p.point.live = p.point.live && p.matters;
   return p;
@@ -31,10 +34,16 @@ void ask_pixels(LightOfPair light, uvec2 tile, uint lane) {
     PixelOfPair p = pixel_of_pair(light, pixel_at(tile, pixel));
     bool known = true;
     float visibility, width = 0.0;
+    bool live = p.point.live, behind = kTransmission != 0u && p.matters && p.extinction_m > 0.0;
+    p.point.live = live && !behind;
     if (kFilter == 3u)
       known = known_before_filter(p.point, visibility, width) || !p.matters;
     else
       visibility = unquantised_visibility(p.point);
+    p.point.live = live;
+    if (behind) do {
+        visibility = transmittance(p.point, p.extinction_m);
+      } while (never(p.point));
     widths[pixel] = width;
     uint says = keep_visibility(pixel, p, visibility, steps);
     if (known) {

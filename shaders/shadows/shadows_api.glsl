@@ -3,6 +3,7 @@
 #ifndef GLOAM_SHADERS_SHADOWS_SHADOWS_API_GLSL
 #define GLOAM_SHADERS_SHADOWS_SHADOWS_API_GLSL
 
+#include "shaders/render/transmission_api.glsl"
 #include "shaders/shadows/shadows_shared.h"
 
 // Evaluates how much of a light a receiver sees. Before including this, define GLOAM_SHADOWS_BINDING, the first of six
@@ -46,6 +47,8 @@ layout(constant_id = 21) const uint kNear = 1u;
 // 1: receivers under pixels are judged at their smooth surface (pixel_receiver()); 0: GeometryOutputs::smooth_surfaces
 // is not read
 layout(constant_id = 22) const uint kTerminator = 0u;
+// Bias of receivers with a subsurface material, in biases of others.
+layout(constant_id = 24) const uint kSubsurfaceBias = 4u;
 // A pipeline may be restricted to some kinds of lights. Software devices would otherwise execute the code of all kinds
 // for every light. kKinds restricts the kinds when the pipeline is created. Shaders for fixed kinds
 // define GLOAM_SHADOWS_KINDS, which shortens their code as well. Shaders that define GLOAM_SHADOWS_IN_FACE promise that
@@ -112,6 +115,7 @@ vec2 shadow_texel_size() { return vec2(1.0 / 1.5, 1.0) / shadow_block.atlas_size
 #else
 #include "shaders/shadows/filter/fixed_filters.glsl"
 #endif
+#include "shaders/shadows/filter/transmission.glsl"
 
 // The visibility as a slot stores it.
 float quantised_visibility(float visibility) {
@@ -141,18 +145,32 @@ float unquantised_visibility(ShadowPoint p) {
 
 float shadow_visibility(ShadowPoint p) { return quantised_visibility(unquantised_visibility(p) * p.horizon); }
 
-// Quantised visibility 0 … 1 of a local light of the view; 1 for one that casts no shadows.
-float local_visibility(uint light, vec3 light_position, ShadowReceiver r) {
+// The share of a light that arrives at a receiver: its visibility, or, for light from behind, the transmittance of what
+// it has crossed. extinction_m: extinction_behind().
+float shadow_share(ShadowPoint p, float extinction_m) {
+  if (kTransmission == 0u) return shadow_visibility(p);
+  bool behind = extinction_m > 0.0, live = p.live;
+  p.live = live && !behind;
+  float share = shadow_visibility(p);
+  p.live = live;
+  if (behind) do {
+      share = quantised_visibility(transmittance(p, extinction_m));
+    } while (never(p));
+  return share;
+}
+
+// Quantised share 0 … 1 of a local light of the view; 1 for one that casts no shadows.
+float local_visibility(uint light, vec3 light_position, ShadowReceiver r, float extinction_m) {
   if (kFilter == 5u) return 1.0;
   if (kFilter == 4u) return quantised_visibility(traced_visibility(texelFetch(shadow_rows, ivec2(6, light), 0).z));
-  return shadow_visibility(local_shadow_point(light, light_position, r));
+  return shadow_share(local_shadow_point(light, light_position, r), extinction_m);
 }
 
 // The same for a directional light. light_direction: unit vector in which the light shines.
-float directional_visibility(uint light, vec3 light_direction, ShadowReceiver r) {
+float directional_visibility(uint light, vec3 light_direction, ShadowReceiver r, float extinction_m) {
   if (kFilter == 5u) return 1.0;
   if (kFilter == 4u) return quantised_visibility(traced_visibility(fetch_sun(light).z));
-  return shadow_visibility(directional_shadow_point(light, light_direction, r));
+  return shadow_share(directional_shadow_point(light, light_direction, r), extinction_m);
 }
 
 // For a light of either kind. light_vector: position of a local light, or the direction in which a directional light
@@ -169,14 +187,14 @@ ShadowPoint light_shadow_point(bool directional, uint light, vec3 light_vector, 
   return p;
 }
 
-float light_visibility(bool directional, uint light, vec3 light_vector, ShadowReceiver r) {
+float light_visibility(bool directional, uint light, vec3 light_vector, ShadowReceiver r, float extinction_m) {
   if (kFilter == 5u) return 1.0;
   uint local = directional ? 0u : light, distant = directional ? light : 0u;
   if (kFilter == 4u) {
     float layer = directional ? fetch_sun(distant).z : texelFetch(shadow_rows, ivec2(6, local), 0).z;
     return quantised_visibility(traced_visibility(layer));
   }
-  return shadow_visibility(light_shadow_point(directional, light, light_vector, r));
+  return shadow_share(light_shadow_point(directional, light, light_vector, r), extinction_m);
 }
 
 #endif

@@ -7,6 +7,7 @@
 #include "engine/render/frame/stages.h"
 #include "engine/render/modules_in_use/visualizers.h"
 #include "engine/render/passes/renderer_passes.h"
+#include "engine/scene/transmission.h"
 
 namespace gloam {
 namespace {
@@ -74,6 +75,7 @@ Status declare_geometry(const Frame& frame, const FrameView& own, FrameBuilder& 
   for (const ImageRef image : {geometry.base_color, geometry.normals, geometry.material, geometry.depth})
     builder.expose(image);
   if (geometry.motion) builder.expose(geometry.motion);
+  if (lets_light_through(builder.world())) builder.expose(geometry.emissive);  // extinction lengths
   return {};
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/math/packing.h"
 #include "engine/math/types.h"
 #include "engine/render/outputs.h"
 #include "engine/render/view.h"
@@ -22,11 +23,17 @@ struct GeometryPicture {
   std::vector<std::uint32_t> base_color;
   std::vector<uvec2> normals;
   std::vector<std::uint32_t> material;
+  std::vector<uvec2> emissive;         ///< half floats; empty if no material of the world lets light through
   std::vector<uvec2> smooth_surfaces;  ///< empty if the frame has no GeometryOutputs::smooth_surfaces
 
   [[nodiscard]] bool is_sky(std::size_t at) const { return depth[at] <= 0.0f; }
   [[nodiscard]] GeometryTexel texel(std::size_t at) const {
     return decode_geometry(base_color[at], normals[at], material[at]);
+  }
+  /// Extinction length of the surface's material in metres; 0: no light passes.
+  [[nodiscard]] float extinction_m(std::size_t at) const {
+    const float root = emissive.empty() ? 0.0f : half_to_float(static_cast<std::uint16_t>(emissive[at].y >> 16));
+    return root * root;
   }
   [[nodiscard]] SmoothSurface smooth_surface(std::size_t at) const {
     return smooth_surfaces.empty() ? SmoothSurface{} : decode_smooth_surface(smooth_surfaces[at]);

@@ -6,6 +6,7 @@
 
 #include "engine/core/text/nearest_name.h"
 #include "engine/render/redraw/redraw.h"
+#include "engine/scene/transmission.h"
 
 namespace gloam {
 namespace {
@@ -62,9 +63,11 @@ Result<std::vector<ImageBytes>> read_images(RendererParts& parts, World& world, 
 
 Result<GeometryPicture> read_geometry(RendererParts& parts, World& world, ViewId view) {
   const auto add_copies = [](FrameBuilder& builder, Captures& copies) -> Status {
-    for (const char* name : {"depth", "base_color", "normals", "material", "smooth_surfaces"})
+    for (const std::string_view name : {"depth", "base_color", "normals", "material", "smooth_surfaces", "emissive"}) {
+      if (name == "emissive" && !lets_light_through(builder.world())) continue;
       if (const FrameBuilder::Exposed* found = find_exposed(builder, name))
         GLOAM_TRY(copies.add(builder.graph(), name, builder.graph().newest(found->image)));
+    }
     return {};
   };
   const auto redrawn = redraw(parts, world, view, add_copies);
@@ -75,6 +78,7 @@ Result<GeometryPicture> read_geometry(RendererParts& parts, World& world, ViewId
   picture.base_color = items_of<std::uint32_t>(*redrawn->copies, "base_color");
   picture.normals = items_of<uvec2>(*redrawn->copies, "normals");
   picture.material = items_of<std::uint32_t>(*redrawn->copies, "material");
+  picture.emissive = items_of<uvec2>(*redrawn->copies, "emissive");
   picture.smooth_surfaces = items_of<uvec2>(*redrawn->copies, "smooth_surfaces");
   return picture;
 }

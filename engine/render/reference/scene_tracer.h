@@ -53,6 +53,12 @@ struct EmissiveMesh {
 /// Mesh instances of a tracer: all, or those that are neither skinned nor morphed nor moved by an animation.
 enum class TracedInstances : std::uint8_t { all, at_rest };
 
+/// The way of light to a point on the surface of a body, of a ray from that point.
+struct BodyPath {
+  float inside_m = 0.0f;  ///< metres inside the body; 0 if the ray leaves the body at once
+  bool blocked = false;   ///< something else lies on the ray
+};
+
 /// The triangles of a world at one moment, for references: skinned and morphed as in the frame, alpha-masked surfaces
 /// by their alpha, without blended surfaces. Thread-safe.
 class SceneTracer {
@@ -65,6 +71,11 @@ class SceneTracer {
   /// through.
   virtual void occluded(std::span<const ShadowRay> rays, std::span<std::uint8_t> blocked,
                         std::span<const std::uint32_t> without = {}) const = 0;
+  /// Sets paths[i] to the way along rays[i], which begins on a body and may run through it: the body is the mesh whose
+  /// surface the ray leaves first, going out by the winding of its triangles. If it goes into a mesh first, or into or
+  /// out of another mesh, it is blocked. Otherwise as occluded(). paths: as many as rays.
+  virtual void through_body(std::span<const ShadowRay> rays, std::span<BodyPath> paths,
+                            std::span<const std::uint32_t> without = {}) const = 0;
   /// Sets surfaces[i] to the nearest surface on rays[i], of all meshes, also those that cast no shadows. Materials that
   /// are not double-sided have no back, as in frames. surfaces: as many as rays. assets: those of the traced world; its
   /// meshes, materials and images must not have changed since the tracer was made.

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/render/scene/material_packing.h"
 
+#include <cmath>
+
 #include "shaders/render/shaders.h"
 
 namespace gloam {
@@ -28,7 +30,8 @@ shaders::MaterialConstants pack_material(const Material& material) {
   packed.base_color = material.base_color;
   packed.emissive_cutoff = vec4(material.emissive, material.alpha_cutoff);
   packed.factors = vec4(material.metallic, material.roughness, material.normal_scale, material.occlusion_strength);
-  packed.extras = vec4(material.subsurface ? 1.0f : 0.0f, material.reflectivity, 0.0f, 0.0f);
+  packed.extras =
+      vec4(material.subsurface ? 1.0f : 0.0f, material.reflectivity, std::sqrt(extinction_length(material)), 0.0f);
   const TextureSlot* slots[] = {&material.base_color_texture, &material.normal_texture,
                                 &material.metallic_roughness_texture, &material.occlusion_texture,
                                 &material.emissive_texture};

@@ -101,6 +101,34 @@ SceneKey subsurface_key() {
   return key;
 }
 
+SceneKey extinction_key() {
+  SceneKey key;
+  key.module = "engine";
+  key.on = KeyElement::material;
+  key.name = "gloam.subsurface.extinction";
+  key.type = KeyType::number;
+  key.min = 0.0;
+  key.max = 1e6;
+  key.unit = "m";
+  key.default_text = "5 mm by gloam.scale";
+  key.meaning =
+      "length over which light inside a body with gloam.subsurface falls to 1/e (37 %); 0: no light passes through";
+  key.set = [](KeyTarget& target, const KeyValue& value) -> Status {
+    material_of(target).extinction_m = static_cast<float>(std::get<double>(value));
+    return {};
+  };
+  return key;
+}
+
+/// The default extinction length is a real length, so files in other units get it in theirs.
+Status set_default_extinctions(World& world) {
+  const double unit_m = metres_per_unit(world);
+  for (Material& material : world.resource<SceneAssets>().materials)
+    if (material.subsurface && material.extinction_m < 0.0f)
+      material.extinction_m = static_cast<float>(kExtinctionM / unit_m);
+  return {};
+}
+
 }  // namespace
 
 void add_engine_keys(KeyRegistry& registry) {
@@ -111,6 +139,8 @@ void add_engine_keys(KeyRegistry& registry) {
   registry.add(scale_key());
   registry.add(reflectivity_key());
   registry.add(subsurface_key());
+  registry.add(extinction_key());
+  registry.add_finish("engine", set_default_extinctions);
 }
 
 }  // namespace gloam

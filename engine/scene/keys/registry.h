@@ -95,7 +95,7 @@ class KeyRegistry {
   std::function<bool(const World&, Entity)> is_light_;
 };
 
-/// Adds the keys that the engine itself reads: gloam.sky.*, gloam.exposure, gloam.reflectivity, gloam.subsurface.
+/// Adds the keys that the engine itself reads: gloam.sky.*, gloam.exposure, gloam.reflectivity, gloam.subsurface.*.
 void add_engine_keys(KeyRegistry& registry);
 
 }  // namespace gloam

@@ -44,8 +44,8 @@ struct TraceContext {
   TraceContext() { rtcInitIntersectContext(&embree); }
 
   RTCIntersectContext embree = {};         // the first member
-  std::span<const std::uint32_t> without;  ///< of occluded()
-  const SceneAssets* assets = nullptr;     ///< of nearest()
+  std::span<const std::uint32_t> without;  ///< of occluded() and through_body()
+  const SceneAssets* assets = nullptr;     ///< of nearest(); null in through_body()
 };
 
 const TraceContext& context_of(const RTCFilterFunctionNArguments* args) {
@@ -74,8 +74,10 @@ void filter_hits(const RTCFilterFunctionNArguments* args) {
   });
 }
 
-/// Embree filter of nearest(): rejects hits on the back of surfaces that have none, and in holes of cut-outs.
+/// Embree filter of nearest(): rejects hits on the back of surfaces that have none, and in holes of cut-outs. Of
+/// through_body(): as filter_hits().
 void filter_nearest(const RTCFilterFunctionNArguments* args) {
+  if (context_of(args).assets == nullptr) return filter_hits(args);
   const SurfaceSource& surface = static_cast<const AttachedMesh*>(args->geometryUserPtr)->mesh.surface;
   const bool double_sided = is_double_sided(*context_of(args).assets, surface);
   reject_hits(args, [&](unsigned int i) {
@@ -177,6 +179,14 @@ class EmbreeTracer final : public SceneTracer {
     }
   }
 
+  void through_body(std::span<const ShadowRay> rays, std::span<BodyPath> paths,
+                    std::span<const std::uint32_t> without) const override {
+    GLOAM_ASSERT(rays.size() == paths.size(), "one path a ray");
+    TraceContext context;
+    context.without = without;
+    for (std::size_t i = 0; i < rays.size(); ++i) paths[i] = path_on(rays[i], context);
+  }
+
   void nearest(const SceneAssets& assets, std::span<const SurfaceRay> rays,
                std::span<TracedSurface> surfaces) const override {
     GLOAM_ASSERT(rays.size() == surfaces.size(), "one surface a ray");
@@ -239,6 +249,35 @@ class EmbreeTracer final : public SceneTracer {
       const bool is_segment = rays[i].from < rays[i].to;
       blocked[i] = is_segment && batch[i].tfar == -std::numeric_limits<float>::infinity() ? 1 : 0;
     }
+  }
+
+  /// Follows the ray from surface to surface.
+  [[nodiscard]] BodyPath path_on(const ShadowRay& ray, TraceContext& context) const {
+    constexpr float kStep = 1e-6f;  // beyond a surface, as a share of the ray so far
+    const float length = glm::length(ray.direction);
+    BodyPath path;
+    std::uint32_t body = RTC_INVALID_GEOMETRY_ID;
+    bool inside = true;
+    float entered = ray.from, from = ray.from;
+    while (from < ray.to) {
+      RTCRayHit at{};
+      at.ray = make_ray(ray.origin, ray.direction, from, ray.to);
+      at.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+      rtcIntersect1(scene_, &context.embree, &at);
+      if (at.hit.geomID == RTC_INVALID_GEOMETRY_ID) break;
+      const vec3 winding_normal(at.hit.Ng_x, at.hit.Ng_y, at.hit.Ng_z);
+      const bool mirrored = attached_[at.hit.geomID]->mesh.surface.mirrored;
+      const bool leaves = (glm::dot(winding_normal, ray.direction) > 0.0f) != mirrored;
+      if (body == RTC_INVALID_GEOMETRY_ID && leaves) body = at.hit.geomID;
+      if (at.hit.geomID != body) return {path.inside_m, true};
+      // An edge may be met twice, once for each of its triangles: the second time changes nothing.
+      if (leaves && inside) path.inside_m += (at.ray.tfar - entered) * length;
+      if (!leaves && !inside) entered = at.ray.tfar;
+      inside = !leaves;
+      from = at.ray.tfar + std::max(at.ray.tfar, kStep) * kStep;
+    }
+    path.blocked = body != RTC_INVALID_GEOMETRY_ID && inside;
+    return path;
   }
 
   [[nodiscard]] TracedSurface surface_on(const SurfaceRay& ray, TraceContext& context) const {

@@ -68,6 +68,7 @@ class AssetHashes {
     for (const float value : {m.metallic, m.roughness, m.normal_scale, m.occlusion_strength, m.alpha_cutoff})
       hasher.bytes_of(value);
     hasher.value(m.alpha_mode).value(m.double_sided).value(m.subsurface);
+    if (m.subsurface) hasher.bytes_of(extinction_length(m));
     hasher.bytes_of(m.reflectivity);
     for (const TextureSlot* slot : {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture,
                                     &m.occlusion_texture, &m.emissive_texture})

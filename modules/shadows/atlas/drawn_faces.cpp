@@ -23,6 +23,7 @@ std::uint64_t salt_of(const FrameBuilder& frame, const ShadowKnobs& knobs) {
       .value(std::bit_cast<std::uint32_t>(knobs.bias_units))
       .value(knobs.mip_operator)
       .value(knobs.simplified)
+      .value(knobs.subsurface_backs)
       .digest();
 }
 
@@ -97,7 +98,7 @@ void find_draws(const CasterHistory& history, const MapInputs& inputs, DrawnFace
   };
   const bool whole = region.texels == whole_face(face.face);
   const FaceVolume volume = whole ? face_volume(face.face) : face_volume(face.face, region.texels);
-  region.draws = face_draws(volume, casters, inputs.simplified, withheld);
+  region.draws = face_draws(volume, casters, inputs.form, withheld);
   std::erase_if(region.draws,
                 [&](const FaceDraw& draw) { return !draws(static_cast<std::size_t>(draw.caster - casters.data())); });
   for (const FaceDraw& draw : region.draws)
@@ -228,7 +229,7 @@ DrawnMaps faces_to_draw(FrameBuilder& frame, ViewMapState& kept, const ViewFaces
                          .poses = poses,
                          .sources = frame.caster_sources(),
                          .salt = salt_of(frame, knobs),
-                         .simplified = knobs.simplified,
+                         .form = {knobs.simplified, knobs.subsurface_backs},
                          .continues_frame = continues_frame,
                          .atlas_is_empty = atlas_is_empty};
   kept.frame.number = frame.graph().frame();

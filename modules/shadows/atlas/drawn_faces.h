@@ -58,7 +58,7 @@ struct MapInputs {
   std::span<const std::uint64_t> poses;          ///< caster_poses(), or empty
   std::span<const CasterSource* const> sources;  ///< in any order
   std::uint64_t salt = 0;                        ///< as in face_contents()
-  bool simplified = false;                       ///< as in face_draws()
+  CasterForm form;
   /// Another view of the frame that shares the atlas has planned its maps already: what it draws is up to date.
   bool continues_frame = false;
   bool atlas_is_empty = false;  ///< the atlas has no contents. Without effect if `continues_frame`

@@ -33,32 +33,38 @@ bool may_see(const FaceVolume& volume, Aabb relative) {
   return may_intersect(volume.frustum, relative);
 }
 
-/// Whether fronts alone give the same map: the caster is closed, not mirrored, without holes, and all of it is beyond
-/// the near plane. Where the near plane opens a caster, its inside is seen.
+/// Whether the winding tells the inside of the caster: it is closed, not mirrored and without holes.
+bool has_inside(const Caster& caster) {
+  return caster.primitive->closed && !is_cut_out(caster) && glm::determinant(glm::dmat3(caster.world_from_mesh)) > 0.0;
+}
+
+/// Whether fronts alone give the same map: the caster has an inside, and all of it is beyond the near plane. Where the
+/// near plane opens a caster, its inside is seen.
 bool fronts_suffice(const FaceVolume& volume, const Caster& caster) {
-  if (!caster.primitive->closed || is_cut_out(caster) || glm::determinant(glm::dmat3(caster.world_from_mesh)) <= 0.0)
-    return false;
+  if (!has_inside(caster)) return false;
   if (!(caster.bounds_min.x <= caster.bounds_max.x)) return false;
   Aabb relative{vec3(caster.bounds_min - volume.origin), vec3(caster.bounds_max - volume.origin)};
   widen(relative);
   return volume.clear_m <= 0.0f || distance_squared(relative) > volume.clear_m * volume.clear_m;
 }
 
-void add_clusters(const FaceVolume& volume, const Caster& caster, bool simplified, std::vector<FaceDraw>& draws) {
+void add_clusters(const FaceVolume& volume, const Caster& caster, const CasterForm& form,
+                  std::vector<FaceDraw>& draws) {
   const GpuPrimitive& primitive = *caster.primitive;
-  const bool fronts = fronts_suffice(volume, caster);
-  if (simplified && caster.deform == kNone && primitive.simplified_index_count > 0 && !is_cut_out(caster)) {
-    draws.push_back({&caster, primitive.simplified_first_index, primitive.simplified_index_count, fronts});
+  const bool backs = form.subsurface_backs && caster.subsurface && has_inside(caster);
+  const bool fronts = !backs && fronts_suffice(volume, caster);
+  if (form.simplified && caster.deform == kNone && primitive.simplified_index_count > 0 && !is_cut_out(caster)) {
+    draws.push_back({&caster, primitive.simplified_first_index, primitive.simplified_index_count, fronts, backs});
     return;
   }
   if (caster.deform != kNone || primitive.clusters.size() <= 1) {
-    draws.push_back({&caster, primitive.first_index, primitive.index_count, fronts});
+    draws.push_back({&caster, primitive.first_index, primitive.index_count, fronts, backs});
     return;
   }
   dmat4 relative = caster.world_from_mesh;
   relative[3] -= dvec4(volume.origin, 0.0);
   const mat4 matrix(relative);
-  FaceDraw draw{&caster, 0, 0, fronts};
+  FaceDraw draw{&caster, 0, 0, fronts, backs};
   for (const Cluster& cluster : primitive.clusters) {
     if (!may_see(volume, transformed(cluster.bounds, matrix))) continue;
     const std::uint32_t first = primitive.first_index + cluster.first_index;
@@ -152,12 +158,12 @@ mat4 clip_from_mesh(const ShadowFace& face, const dmat4& world_from_mesh) {
 
 bool is_cut_out(const Caster& caster) { return (caster.variant.features & GLOAM_SURFACE_MASK) != 0; }
 
-std::vector<FaceDraw> face_draws(const FaceVolume& volume, std::span<const Caster> casters, bool simplified,
+std::vector<FaceDraw> face_draws(const FaceVolume& volume, std::span<const Caster> casters, const CasterForm& form,
                                  std::span<const Entity> withheld) {
   std::vector<FaceDraw> draws;
   for (const Caster& caster : casters)
     if (caster.primitive->index_count > 0 && may_see(volume, caster) && !is_withheld(withheld, caster.entity))
-      add_clusters(volume, caster, simplified, draws);
+      add_clusters(volume, caster, form, draws);
   std::stable_partition(draws.begin(), draws.end(), [](const FaceDraw& draw) { return !is_cut_out(*draw.caster); });
   return draws;
 }

@@ -46,12 +46,18 @@ struct FaceDraw {
   std::uint32_t first_index = 0;
   std::uint32_t index_count = 0;
   bool fronts_only = false;  ///< the map is the same without the triangles that face away from the light
+  bool backs_only = false;   ///< drawn without the triangles that face the light
+};
+/// The triangles of casters that are drawn.
+struct CasterForm {
+  bool simplified = false;  ///< casters with simplified triangles (GpuPrimitive::simplified_index_count) are drawn with
+                            ///< those, whole
+  bool subsurface_backs = false;  ///< closed casters with a subsurface material are drawn without their lit side
 };
 /// The draws of all clusters that the face may see; adjacent clusters share a draw. Opaque casters come before cut-out
-/// ones. simplified: casters with simplified triangles (GpuPrimitive::simplified_index_count) are drawn with those,
-/// whole. withheld: casters that are left out, a result of WithheldCasters::of().
+/// ones. withheld: casters that are left out, a result of WithheldCasters::of().
 [[nodiscard]] std::vector<FaceDraw> face_draws(const FaceVolume& volume, std::span<const Caster> casters,
-                                               bool simplified = false, std::span<const Entity> withheld = {});
+                                               const CasterForm& form = {}, std::span<const Entity> withheld = {});
 
 /// Whether the caster's alpha is tested.
 [[nodiscard]] bool is_cut_out(const Caster& caster);

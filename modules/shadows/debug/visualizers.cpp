@@ -98,7 +98,7 @@ std::vector<VisualizerInfo> shadow_visualizers() {
       {"shadow", "shadows", "LIGHT",
        "visibility of the light at each pixel: black unlit, white fully lit, grey between (linear: 0.5 is 188 in the "
        "picture), blue out of the light's reach. With shadows.mode=deferred, read from the tile's final list: surfaces "
-       "that face away from the light are black"},
+       "that face away from the light are black, or show the transmittance where light passes through them"},
       {"shadow_atlas", "shadows", "",
        "the shadow maps at their places in the atlas: white near the light, dark far from it, blue no caster; border: "
        "orange drawn in this frame, green kept from an earlier frame"}};

@@ -28,11 +28,11 @@ bool lists(std::span<const Entity> entities, Entity entity) {
 }
 
 DrawnFace drawn_face(const ExtraMap& map, std::span<const Caster> casters, std::span<const CasterSource* const> sources,
-                     bool simplified) {
+                     const CasterForm& form) {
   DrawnFace drawn{map.face, {}, {}, {}};
   DrawnRegion& region = drawn.regions.emplace_back(DrawnRegion{whole_face(map.face), {}, {}});
   const FaceVolume volume = face_volume(map.face);
-  region.draws = face_draws(volume, casters, simplified);
+  region.draws = face_draws(volume, casters, form);
   for (const FaceDraw& draw : region.draws)
     region.matrices.push_back(clip_from_mesh(map.face, draw.caster->world_from_mesh));
   const std::vector<CasterState> states = source_states(sources);
@@ -125,7 +125,8 @@ void ShadowMapDrawer::draw(FrameBuilder& frame, const char* name, std::span<cons
   std::vector<DrawnFace> faces;
   std::span<const Caster> left = work->casters;
   for (std::size_t i = 0; i < maps.size(); ++i) {
-    faces.push_back(drawn_face(maps[i], left.first(counts[i]), frame.caster_sources(), tools_->knobs.simplified));
+    faces.push_back(drawn_face(maps[i], left.first(counts[i]), frame.caster_sources(),
+                               {tools_->knobs.simplified, tools_->knobs.subsurface_backs}));
     left = left.subspan(counts[i]);
   }
   work->faces = plan_faces(std::move(faces));

@@ -18,6 +18,7 @@ gpu::GraphicsPipelineDesc map_pipeline(MapDraw draw) {
   const bool cut_out = draw == MapDraw::cut_out;
   CasterProgram program;
   if (draw == MapDraw::fronts) program.cull = gpu::CullMode::back;
+  if (draw == MapDraw::backs) program.cull = gpu::CullMode::front;
   program.vertex = cut_out ? shaders::shadows::map_mask_vert : shaders::shadows::map_vert;
   program.attributes = {{0, 0, gpu::Format::rgb32_float, 0}};
   program.stream_strides = {sizeof(vec3)};
@@ -49,7 +50,7 @@ class FaceRecorder {
       const FaceDraw& draw = region.draws[i];
       const Caster& caster = *draw.caster;
       const bool cut_out = is_cut_out(caster);
-      bind(cut_out ? map_.cut_out : draw.fronts_only ? map_.fronts : map_.whole);
+      bind(cut_out ? map_.cut_out : draw.fronts_only ? map_.fronts : draw.backs_only ? map_.backs : map_.whole);
       frame_.bind_caster_vertices(context_, caster, cut_out);
       if (cut_out) commands_.bind_set(1, frame_.scene().material(caster.primitive->material).set);
       commands_.push(shaders::CasterConstants{region.matrices[i], face.face.tan_half > 0.0f ? 0u : 1u});
@@ -96,10 +97,11 @@ void begin_region(gpu::CommandList& commands, const gpu::ImageView& layer, std::
                        extent.y);
 }
 
-bool draws_fronts(const FacePlan& plan) {
+/// Whether this flag of FaceDraw is set in any draw of the plan.
+bool draws(const FacePlan& plan, bool FaceDraw::*flag) {
   for (const DrawnFace& face : plan.faces)
     for (const DrawnRegion& region : face.regions)
-      if (std::ranges::any_of(region.draws, [](const FaceDraw& draw) { return draw.fronts_only; })) return true;
+      if (std::ranges::any_of(region.draws, flag)) return true;
   return false;
 }
 
@@ -149,8 +151,9 @@ void prepare_maps(FrameBuilder& frame, ShadowStates& states, const ShadowKnobs& 
         for (const FaceDraw& draw : region.draws) frame.use_caster_vertices(*draw.caster);
   work.bias_units = knobs.bias_units;
   work.whole = pipeline_of(frame, map_pipeline(MapDraw::whole));
-  if (draws_fronts(work.faces) || draws_fronts(work.backgrounds))
-    work.fronts = pipeline_of(frame, map_pipeline(MapDraw::fronts));
+  const auto any_draws = [&](bool FaceDraw::*flag) { return draws(work.faces, flag) || draws(work.backgrounds, flag); };
+  if (any_draws(&FaceDraw::fronts_only)) work.fronts = pipeline_of(frame, map_pipeline(MapDraw::fronts));
+  if (any_draws(&FaceDraw::backs_only)) work.backs = pipeline_of(frame, map_pipeline(MapDraw::backs));
   if (draws_cut_outs(work.backgrounds) || draws_cut_outs(work.faces))
     work.cut_out = pipeline_of(frame, map_pipeline(MapDraw::cut_out));
   work.mips = plan_shadow_mips(frame, work.backgrounds, work.faces, knobs, steepest, mips);

@@ -16,6 +16,7 @@ namespace gloam {
 enum class MapDraw : std::uint8_t {
   whole,
   fronts,   ///< without triangles that face away from the light
+  backs,    ///< without triangles that face the light
   cut_out,  ///< with an alpha test
 };
 /// The pipeline that draws casters into the scratch image.
@@ -29,6 +30,7 @@ struct MapWork {
   float bias_units = 0.0f;  ///< ShadowKnobs::bias_units
   gpu::PipelineHandle whole;
   gpu::PipelineHandle fronts;   ///< null when no caster is drawn so
+  gpu::PipelineHandle backs;    ///< null when no caster is drawn so
   gpu::PipelineHandle cut_out;  ///< null when no cut-out caster is drawn
   ShadowMipWork mips;
 };

@@ -95,12 +95,14 @@ struct SurfacePoint {
   dvec3 position = dvec3(0.0);
   dvec3 normal = dvec3(0.0);  ///< unit
   bool subsurface = false;
+  dvec3 shading_normal = dvec3(0.0);
+  double extinction_m = 0.0;  ///< 0: no light passes
 };
 
 /// The point of the smooth surface from which rays begin; the drawn surface's if there is none.
 SurfacePoint on_smooth_surface(const SurfacePoint& drawn, const SmoothSurface& surface) {
   if (!surface.exists || drawn.subsurface) return drawn;
-  return {drawn.position + dvec3(surface.offset), dvec3(surface.normal), false};
+  return {drawn.position + dvec3(surface.offset), dvec3(surface.normal), false, drawn.shading_normal, 0.0};
 }
 
 /// Two unit vectors orthogonal to each other and to the unit vector d.
@@ -120,32 +122,56 @@ class RowTracer {
         camera_from_tracer_(input.geometry.view.position - input.tracer.origin()) {}
 
   [[nodiscard]] static SurfacePoint point_at(const GeometryPicture& geometry, std::uint32_t x, std::uint32_t y) {
-    const GeometryTexel texel = geometry.texel(std::size_t{y} * geometry.view.width + x);
-    return {geometry.position(x, y), dvec3(texel.face_normal), texel.subsurface};
+    const std::size_t at = std::size_t{y} * geometry.view.width + x;
+    const GeometryTexel texel = geometry.texel(at);
+    return {geometry.position(x, y), dvec3(texel.face_normal), texel.subsurface, dvec3(texel.normal),
+            static_cast<double>(geometry.extinction_m(at))};
   }
 
-  /// Number of the emitter's samples that the point sees: of all, and of the first half; `of` is the total.
+  /// Number of the emitter's samples that the point sees: of all, and of the first half; `of` is the total. Where light
+  /// from behind passes, each sample counts by its transmittance.
   struct Seen {
-    std::uint32_t all = 0;
-    std::uint32_t first_half = 0;
+    double all = 0.0;
+    double first_half = 0.0;
     std::uint32_t of = 1;
   };
   [[nodiscard]] Seen trace(const SurfacePoint& point, const Emitter& emitter, std::uint32_t pixel) {
     const EmitterSamples& samples = emitter.radius > 0.0 ? wide_ : single_;
     const std::uint32_t count = samples.count();
-    if (!aim(point, emitter, samples.pattern(pixel, emitter.entity.index))) return {count, count / 2, count};
+    if (!aim(point, emitter, samples.pattern(pixel, emitter.entity.index)))
+      return {static_cast<double>(count), static_cast<double>(count / 2), count};
+    if (passes_from_behind(point, emitter)) return trace_through(point, emitter);
     blocked_.resize(rays_.size());
     input_.tracer.occluded(rays_, blocked_, emitter.bulbs);
     block_below(point);
-    Seen seen{.all = count, .first_half = count / 2, .of = count};
+    Seen seen{.of = count};
     for (std::uint32_t i = 0; i < count; ++i) {
-      seen.all -= blocked_[i];
-      if (i < count / 2) seen.first_half -= blocked_[i];
+      seen.all += 1 - blocked_[i];
+      if (i < count / 2) seen.first_half += 1 - blocked_[i];
     }
     return seen;
   }
 
  private:
+  [[nodiscard]] static bool passes_from_behind(const SurfacePoint& point, const Emitter& emitter) {
+    const dvec3 to_light = emitter.kind == LightKind::directional ? -emitter.axis : emitter.position - point.position;
+    return point.extinction_m > 0.0 && glm::dot(point.shading_normal, to_light) < 0.0;
+  }
+
+  /// The rays through the receiver's body, weakened by their way inside it.
+  [[nodiscard]] Seen trace_through(const SurfacePoint& point, const Emitter& emitter) {
+    paths_.resize(rays_.size());
+    input_.tracer.through_body(rays_, paths_, emitter.bulbs);
+    Seen seen{.of = static_cast<std::uint32_t>(rays_.size())};
+    for (std::size_t i = 0; i < rays_.size(); ++i) {
+      if (paths_[i].blocked) continue;
+      const double share = std::exp(-static_cast<double>(paths_[i].inside_m) / point.extinction_m);
+      seen.all += share;
+      if (i < rays_.size() / 2) seen.first_half += share;
+    }
+    return seen;
+  }
+
   /// The receiver's own surface hides what lies behind it.
   void block_below(const SurfacePoint& point) {
     if (point.subsurface) return;
@@ -187,6 +213,7 @@ class RowTracer {
   const dvec3 camera_from_tracer_;
   std::vector<ShadowRay> rays_;
   std::vector<std::uint8_t> blocked_;
+  std::vector<BodyPath> paths_;
 };
 
 /// The casting lights that reach any pixel.
@@ -233,13 +260,15 @@ NoiseSum trace_row(std::uint32_t y, const GeometryPicture& geometry, std::span<c
       if (!emitters[light].reaches(point.position)) continue;
       const RowTracer::Seen seen = tracer.trace(receiver, emitters[light], static_cast<std::uint32_t>(pixel));
       const std::size_t at = light * traced.pixels() + pixel;
-      traced.visibility[at] = static_cast<std::uint8_t>((seen.all * 255u + seen.of / 2) / seen.of);
+      // Rounded as integers are, so that whole numbers of samples give the same on every machine.
+      traced.visibility[at] = static_cast<std::uint8_t>((seen.all * 255.0 + static_cast<double>(seen.of / 2)) /
+                                                        static_cast<double>(seen.of));
       std::atomic_ref(traced.judged[at / 8])
           .fetch_or(static_cast<std::uint8_t>(1u << (at % 8)), std::memory_order_relaxed);
       ++sum.pairs;
       // Lights without width have one sample and no noise.
-      const std::int64_t half = seen.of / 2, all = seen.of;
-      if (half > 0) sum.change += static_cast<std::uint64_t>(std::abs(seen.first_half * all - seen.all * half));
+      const double half = seen.of / 2, all = seen.of;
+      if (half > 0.0) sum.change += static_cast<std::uint64_t>(std::abs(seen.first_half * all - seen.all * half));
     }
   }
   return sum;
@@ -314,6 +343,7 @@ std::string visibility_identity(const VisibilityInput& input) {
   if (!geometry.smooth_surfaces.empty()) hasher.bytes(std::as_bytes(std::span(geometry.smooth_surfaces)));
   for (const std::uint32_t color : geometry.base_color)
     hasher.value(static_cast<std::uint8_t>(color >> 24));  // the alpha byte flags subsurface materials
+  for (const uvec2& texel : geometry.emissive) hasher.value(texel.y >> 16);  // extinction lengths
   for (const Emitter& e : casting_lights(input.world, dvec3(0.0))) {
     hasher.value(e.entity.index).value(e.entity.generation).value(e.kind).bytes_of(e.position).bytes_of(e.axis);
     hasher.bytes_of(e.range_m).bytes_of(e.cos_outer).bytes_of(e.radius);

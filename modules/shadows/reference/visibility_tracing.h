@@ -28,6 +28,8 @@ namespace gloam {
 /// - Bulbs (modules/shadows/views/bulbs.h) do not block the light that they belong to.
 /// - A ray that leaves below the receiver's surface, by more than kBehindSine, is blocked, unless the material is
 ///   subsurface: the surface is opaque, even if the mesh behind it is open.
+/// - Where light from behind passes (GeometryPicture::extinction_m(), by the shading normal), a ray counts by
+///   exp(−way inside the receiver's body / extinction length), and is blocked by anything else on it.
 /// Offset of ray starts as a share of the distance from the camera: several times the rounding error of depth buffer
 /// and transforms.
 inline constexpr double kRayStartShare = 4e-5;

@@ -23,6 +23,7 @@ void main() {
   ShadingPoint p = shading_point(in_relative, to_eye, s.normal, s.base_color.rgb, s.metallic, s.roughness);
   p.normal_spread = s.normal_spread;
   set_receiver(in_relative, s.face_normal, s.subsurface);
+  if (kTransmission != 0u) extinction_m = decode_extinction(s.extinction_root);
   vec3 light = s.emissive + ambient(environment, p, s.roughness, s.occlusion);
   add_forward_lights(light, p, uvec2(gl_FragCoord.xy));
   out_light = vec4(min(light, vec3(65504.0)), s.base_color.a);

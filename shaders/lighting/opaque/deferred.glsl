@@ -37,10 +37,17 @@ vec3 diffuse_light = vec3(0.0);  // illuminance of the surface, summed only with
 
 vec3 add_reflected(ShadingPoint p, vec3 to_light, vec3 illuminance, float half_angle) {
   if (kDiffuseLight != 0u) diffuse_light += illuminance * clamp(dot(p.normal, to_light), 0.0, 1.0);
-  return reflected_disc(p, to_light, illuminance, half_angle);
+  vec3 light = reflected_disc(p, to_light, illuminance, half_angle);
+  if (extinction_behind(extinction_m, p.normal, to_light) > 0.0) {
+    vec3 through = light_through(p, to_light, illuminance);
+    if (kDiffuseLight != 0u) diffuse_light += through;
+    light += p.diffuse * through;
+  }
+  return light;
 }
 
-// `share`: visibility of the light, multiplied with the shadows and cookies that arriving_local applies.
+// `share`: visibility (transmittance) of the light, multiplied with the shadows and cookies that arriving_local
+// applies.
 vec3 add_local(ShadingPoint p, uint index, float share) {
   vec3 to_light;
   LocalLight light = fetch_light(light_texels, index);
@@ -87,7 +94,9 @@ void main() {
   vec3 to_eye = normalize(to_viewer(view, position));
   ShadingPoint p = shading_point(position, to_eye, g.normal, g.base_color, g.metallic, g.roughness);
   p.normal_spread = g.normal_spread;
-  vec3 light = texelFetch(emissive_image, pixel, 0).rgb + ambient_light(p, g.roughness, g.occlusion);
+  vec4 emissive = texelFetch(emissive_image, pixel, 0);
+  if (kTransmission != 0u) extinction_m = decode_extinction(emissive.a);
+  vec3 light = emissive.rgb + ambient_light(p, g.roughness, g.occlusion);
   set_receiver(position, g.face_normal, g.subsurface);
 #ifdef GLOAM_SHADOWS_BINDING
   receiver = pixel_receiver(position, g.face_normal, g.subsurface, pixel);

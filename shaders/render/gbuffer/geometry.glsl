@@ -30,7 +30,7 @@ void main() {
   out_base_color = encode_base_color(s.base_color.rgb, s.subsurface, s.normal_spread);
   out_normals = encode_normals(s.normal, s.face_normal);
   out_material = vec4(s.roughness, s.metallic, s.occlusion, s.reflectivity);
-  out_emissive = vec4(min(s.emissive, vec3(65504.0)), 0.0);
+  out_emissive = vec4(min(s.emissive, vec3(65504.0)), s.extinction_root);
   if ((kSurface & GLOAM_SURFACE_CLIPPED) != 0u && is_clipped(view, in_relative)) discard;
 #ifdef GLOAM_MOTION
   out_motion = screen_motion(motion, in_clip, in_previous_clip);

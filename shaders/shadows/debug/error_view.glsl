@@ -4,7 +4,7 @@
 #define GLOAM_SHADERS_SHADOWS_ERROR_VIEW_GLSL
 
 // Visualizer error: the mean absolute difference between drawn and traced visibility, over the traced lights that reach
-// the surface and that it faces. See drawn_visibility.glsl.
+// the surface and that it faces, or that it lets through from behind. See drawn_visibility.glsl.
 
 #define GLOAM_SHADOWS_BINDING 6
 #define GLOAM_SMOOTH_SURFACE_BINDING 20
@@ -25,12 +25,13 @@ layout(set = 0, binding = 2) uniform sampler2D depth_image;
 layout(set = 0, binding = 3) uniform usampler2D normal_image;
 layout(set = 0, binding = 4) uniform sampler2D base_color_image;
 layout(set = 0, binding = 5) uniform sampler2D light_texels;
+layout(set = 0, binding = 21) uniform sampler2D emissive_image;
 
 layout(location = 0) out vec4 out_color;
 layout(location = 1) out vec4 out_difference;
 
 // x: sum of the differences; y: their number.
-vec2 local_differences(uvec2 pixel, vec3 position, vec3 normal, ShadowReceiver r) {
+vec2 local_differences(uvec2 pixel, vec3 position, vec3 normal, ShadowReceiver r, float extinction_m) {
   vec2 sum = vec2(0.0);
   for (uint i = 0u; i < lights.local_count; ++i) {
     LocalLight light = fetch_light(light_texels, i);
@@ -38,21 +39,24 @@ vec2 local_differences(uvec2 pixel, vec3 position, vec3 normal, ShadowReceiver r
     vec3 to_light;
     float layer = texelFetch(shadow_rows, ivec2(6, i), 0).z;
     bool counts = layer >= 0.0 && local_illuminance(light, position, to_light).x > 0.0;
-    counts = counts && dot(normal, to_light) > 0.0;
+    float behind = extinction_behind(extinction_m, normal, to_light);
+    counts = counts && (dot(normal, to_light) > 0.0 || behind > 0.0);
     for (; counts; counts = false)
-      sum += vec2(abs(drawn_visibility(pixel, false, i, light.position, r, true) - traced_visibility(layer)), 1.0);
+      sum +=
+          vec2(abs(drawn_visibility(pixel, false, i, light.position, r, true, behind) - traced_visibility(layer)), 1.0);
   }
   return sum;
 }
 
-vec2 directional_differences(uvec2 pixel, vec3 normal, ShadowReceiver r) {
+vec2 directional_differences(uvec2 pixel, vec3 normal, ShadowReceiver r, float extinction_m) {
   vec2 sum = vec2(0.0);
   for (uint i = 0u; i < lights.directional_count; ++i) {
     float layer = shadow_block.directional[i].traced_layer;
     vec3 direction = lights.directional[i].direction;
-    bool counts = layer >= 0.0 && dot(normal, -direction) > 0.0;
+    float behind = extinction_behind(extinction_m, normal, -direction);
+    bool counts = layer >= 0.0 && (dot(normal, -direction) > 0.0 || behind > 0.0);
     for (; counts; counts = false)
-      sum += vec2(abs(drawn_visibility(pixel, true, i, direction, r, true) - traced_visibility(layer)), 1.0);
+      sum += vec2(abs(drawn_visibility(pixel, true, i, direction, r, true, behind) - traced_visibility(layer)), 1.0);
   }
   return sum;
 }
@@ -65,9 +69,12 @@ void main() {
   vec3 normal = unpack_normal(normals.x);
   ShadowReceiver r =
       pixel_receiver(position, unpack_normal(normals.y), texelFetch(base_color_image, pixel, 0).a > 0.5, pixel);
+  float extinction_m = 0.0;
+  if (kTransmission != 0u) extinction_m = decode_extinction(texelFetch(emissive_image, pixel, 0).a);
   vec2 sum = vec2(0.0);
   for (bool surface = depth > 0.0; surface; surface = false)
-    sum = local_differences(uvec2(pixel), position, normal, r) + directional_differences(uvec2(pixel), normal, r);
+    sum = local_differences(uvec2(pixel), position, normal, r, extinction_m) +
+          directional_differences(uvec2(pixel), normal, r, extinction_m);
   float difference = sum.y > 0.0 ? sum.x / sum.y : -1.0;
   vec3 color = heat(max(difference, 0.0) / kWhite);
   out_color = vec4(kEncode != 0u ? linear_to_srgb(color) : color, 1.0);

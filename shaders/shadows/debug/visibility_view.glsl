@@ -4,7 +4,7 @@
 #define GLOAM_SHADERS_SHADOWS_SHADOW_VISIBILITY_VIEW_GLSL
 
 // Visualizer shadow: the visibility of one light at each pixel. Black: unlit, white: fully lit, blue: the light does
-// not reach the pixel. See drawn_visibility.glsl.
+// not reach the pixel. Transmittance where light from behind passes. See drawn_visibility.glsl.
 
 #define GLOAM_SHADOWS_BINDING 6
 #define GLOAM_SMOOTH_SURFACE_BINDING 20
@@ -24,6 +24,7 @@ layout(set = 0, binding = 2) uniform sampler2D depth_image;
 layout(set = 0, binding = 3) uniform usampler2D normal_image;
 layout(set = 0, binding = 4) uniform sampler2D base_color_image;
 layout(set = 0, binding = 5) uniform sampler2D light_texels;
+layout(set = 0, binding = 21) uniform sampler2D emissive_image;
 
 layout(location = 0) out vec4 out_color;
 layout(location = 1) out vec4 out_visibility;
@@ -41,9 +42,14 @@ void main() {
   vec3 to_light;
   bool reaches = directional || local_illuminance(local, position, to_light).x > 0.0;
   vec3 light_vector = directional ? lights.directional[directional ? shown.light : 0u].direction : local.position;
-  bool faces = dot(unpack_normal(normals.x), directional ? -light_vector : to_light) > 0.0;
-  float visibility =
-      depth > 0.0 && reaches ? drawn_visibility(uvec2(pixel), directional, shown.light, light_vector, r, faces) : -1.0;
+  vec3 normal = unpack_normal(normals.x), toward = directional ? -light_vector : to_light;
+  float extinction = 0.0;
+  if (kTransmission != 0u)
+    extinction = extinction_behind(decode_extinction(texelFetch(emissive_image, pixel, 0).a), normal, toward);
+  bool faces = dot(normal, toward) > 0.0 || extinction > 0.0;
+  float visibility = depth > 0.0 && reaches
+                         ? drawn_visibility(uvec2(pixel), directional, shown.light, light_vector, r, faces, extinction)
+                         : -1.0;
   vec3 color = visibility < 0.0 ? vec3(0.0, 0.0, 0.04) : vec3(visibility);
   out_color = vec4(kEncode != 0u ? linear_to_srgb(color) : color, 1.0);
   out_visibility = vec4(visibility, 0.0, 0.0, 1.0);

@@ -42,6 +42,7 @@ struct ShadowPoint {
   int face;        // cube face; −1: no cube
   float tan_half;  // tangent of half the face's field of view, for cubes
   float horizon;   // share of the emitter above the receiver plane; the part below gives no light
+  float metres;    // metres_between(); set only with kTransmission
 };
 
 // A face's square at one mip, in texels of the atlas image.
@@ -104,8 +105,9 @@ float cascade_bias_depth(float texel_m, float depth_m) { return 100.0 * texel_m 
 void set_threshold(inout ShadowPoint p, float facing_sine, float emitter_sine, float bias_depth, bool subsurface) {
   float quantum = max(shadow_block.depth_quantum, abs(p.depth) * shadow_block.relative_quantum);
   // Hardware bias is already in the map, but the threshold needs at least a step of the map's format.
-  float bias = kBias != 0u ? max(shadow_block.bias_m * (subsurface ? 4.0 : 1.0) * bias_depth, quantum)
-                           : shadow_block.depth_quantum;
+  float bias = kBias != 0u
+                   ? max(shadow_block.bias_m * (subsurface ? float(kSubsurfaceBias) : 1.0) * bias_depth, quantum)
+                   : shadow_block.depth_quantum;
   // Where the receiver plane cuts the emitter, the part above the plane decides.
   bool toward = subsurface || kBias == 0u || facing_sine < max(emitter_sine, kFacingSine);
   p.horizon =
@@ -119,7 +121,7 @@ void set_threshold(inout ShadowPoint p, float facing_sine, float emitter_sine, f
 }
 
 ShadowPoint no_shadow_point() {
-  return ShadowPoint(vec2(0.0), 16.0, vec2(8.0), 1.0, 1.0, vec2(0.0), 1.0, 0.0, false, false, -1, 1.0, 1.0);
+  return ShadowPoint(vec2(0.0), 16.0, vec2(8.0), 1.0, 1.0, vec2(0.0), 1.0, 0.0, false, false, -1, 1.0, 1.0, 1.0);
 }
 
 // Axes of a cube in the world, as columns.
@@ -227,6 +229,7 @@ ShadowPoint local_shadow_point(LocalShadow l, ShadowReceiver r) {
   normal = normal * axes;
   float facing = dot(normal, local);
   float distance = length(local);
+  if (kTransmission != 0u) p.metres = near * distance / z;
   float least = least_sine(r);
   float along = abs(facing) < least * distance ? (facing < 0.0 ? -least : least) * distance : facing;
   precise vec2 slope = vec2(normal.x, -normal.y) * (near * texel / along);
@@ -289,6 +292,7 @@ void try_cascade(inout SunReceiver s, ShadowCascade c, bool wanted) {
     s.point.depth = at.z;
     s.bias_depth = cascade_bias_depth(c.texel_m, c.depth_m);
     s.point.scale = s.penumbra * c.depth_m / c.texel_m;
+    if (kTransmission != 0u) s.point.metres = c.depth_m;
     precise vec2 slope = vec2(dot(s.face_normal, c.row_u.xyz), dot(s.face_normal, c.row_v.xyz)) *
                          (c.texel_m * c.texel_m / c.depth_m / along);
     s.point.slope = slope;

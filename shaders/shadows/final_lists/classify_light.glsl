@@ -5,6 +5,9 @@
 
 // Bounds of a tile in the faces of a light, for classify_tile.glsl, which includes this file.
 
+// Whether pixels of the tile may take light from behind. What they get is a transmittance, which no verdict knows.
+bool may_transmit(TileBounds t) { return kTransmission != 0u && t.subsurface; }
+
 // Sets the members that depend on the planes of the tile's pixels. sines: least and greatest sine of the angle between
 // the light's rays and the pixels' surfaces, negative where they face the light. emitter: greatest and least sine of
 // half the angle that the emitter covers.
@@ -21,8 +24,9 @@ void set_biases(inout TileInFace f, vec2 bias_depth, bool subsurface) {
   f.least_bias = kBias != 0u ? max(shadow_block.bias_m * bias_depth.x,
                                    max(shadow_block.depth_quantum, f.farthest * shadow_block.relative_quantum))
                              : shadow_block.depth_quantum;
-  f.most_bias = kBias != 0u ? max(shadow_block.bias_m * (subsurface ? 4.0 : 1.0) * bias_depth.y, quantum)
-                            : shadow_block.depth_quantum;
+  f.most_bias = kBias != 0u
+                    ? max(shadow_block.bias_m * (subsurface ? float(kSubsurfaceBias) : 1.0) * bias_depth.y, quantum)
+                    : shadow_block.depth_quantum;
 }
 
 #ifdef GLOAM_CLASSIFY_SUNS
@@ -83,7 +87,9 @@ void tile_in_cascade(TileBounds t, uint light, vec3 direction, ShadowCascade c, 
 uint classify_directional(TileBounds t, uint light, vec3 direction, int most_turns) {
   uint count = min(uint(fetch_sun(light).x), uint(GLOAM_MAX_CASCADES));
   if (count == 0u) return kCastsNone;
-  if (dot(t.normal, direction) > t.shading_spread + 1e-5) return kNotAsked;
+  float along = dot(t.normal, direction);
+  if (may_transmit(t) && along > -t.shading_spread - 1e-5) return kUnknown;
+  if (along > t.shading_spread + 1e-5) return kNotAsked;
   uint verdict = kUnknown, i = 0u;
   bool first = true, done = false;
   do {
@@ -108,6 +114,12 @@ uint classify_directional(TileBounds t, uint light, vec3 direction, int most_tur
 bool is_dark(TileBounds t, vec3 light_position) {
   float height = dot(t.normal, light_position), farthest = distance(t.center, light_position) + t.radius;
   return height - t.offsets.x + t.shading_spread * farthest < -1e-5 * (abs(height) + farthest);
+}
+
+// Whether a local light is in front of the shading normal of each pixel.
+bool is_faced(TileBounds t, vec3 light_position) {
+  float height = dot(t.normal, light_position), farthest = distance(t.center, light_position) + t.radius;
+  return height - t.offsets.y - t.shading_spread * farthest > 1e-5 * (abs(height) + farthest);
 }
 
 // A local light's data for classification.
@@ -294,7 +306,8 @@ uint classify_local(TileBounds t, uint light, vec3 light_position, int most_turn
   LocalFaces l = fetch_local_faces(light, light_position);
   in_face = l.first.x == float(GLOAM_SHADOW_SPOT);
   if (l.first.x == float(GLOAM_SHADOW_NONE)) return kCastsNone;
-  if (is_dark(t, light_position)) return kNotAsked;
+  bool transmits = may_transmit(t) && !is_faced(t, light_position);
+  if (!transmits && is_dark(t, light_position)) return kNotAsked;
   uint verdict = kUnknown;
   if (l.cube)
     verdict = classify_cube(t, l, most_turns, in_face);
@@ -306,7 +319,7 @@ uint classify_local(TileBounds t, uint light, vec3 light_position, int most_turn
       verdict = classify_in_face(f, most_turns, width, 1.0, f.surrounded, clear);
     }
   }
-  return verdict;
+  return transmits ? kUnknown : verdict;
 }
 #endif
 

@@ -51,8 +51,8 @@ LightOfPair light_of_pair(uint light) { return LightOfPair(fetch_sun_shadow(ligh
 
 ShadowPoint shadow_point(LightOfPair l, ShadowReceiver r) { return directional_shadow_point(l.shadow, r); }
 
-bool gives_light(LightOfPair l, vec3 position, vec3 normal) {
-  return sun_gives(l.shadow.sun.w, l.shadow.direction, normal);
+float light_cosine(LightOfPair l, vec3 position, vec3 normal) {
+  return sun_cosine(l.shadow.sun.w, l.shadow.direction, normal);
 }
 #else
 struct LightOfPair {
@@ -67,7 +67,7 @@ LightOfPair light_of_pair(uint light) {
 
 ShadowPoint shadow_point(LightOfPair l, ShadowReceiver r) { return local_shadow_point(l.shadow, r); }
 
-bool gives_light(LightOfPair l, vec3 position, vec3 normal) { return local_light_gives(l.light, position, normal); }
+float light_cosine(LightOfPair l, vec3 position, vec3 normal) { return local_light_cosine(l.light, position, normal); }
 #endif
 
 uint keep_visibility(uint pixel, PixelOfPair p, float visibility, out uint steps) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace gloam {
@@ -25,7 +26,17 @@ TEST(PackMaterial, places_every_factor) {
   EXPECT_EQ(packed.base_color, material.base_color);
   EXPECT_EQ(packed.emissive_cutoff, vec4(5.0f, 6.0f, 7.0f, 0.25f));
   EXPECT_EQ(packed.factors, vec4(0.5f, 0.6f, 0.7f, 0.8f));
-  EXPECT_EQ(packed.extras, vec4(1.0f, 0.9f, 0.0f, 0.0f));
+  EXPECT_EQ(packed.extras, vec4(1.0f, 0.9f, std::sqrt(0.005f), 0.0f)) << "5 mm by default";
+}
+
+TEST(PackMaterial, extinction_lengths_are_packed_as_square_roots_and_only_with_subsurface) {
+  Material material;
+  material.extinction_m = 0.25f;
+  EXPECT_EQ(pack_material(material).extras.z, 0.0f);
+  material.subsurface = true;
+  EXPECT_EQ(pack_material(material).extras.z, 0.5f);
+  material.extinction_m = 0.0f;
+  EXPECT_EQ(pack_material(material).extras.z, 0.0f);
 }
 
 TEST(PackMaterial, the_default_has_no_subsurface_and_derives_reflectivity) {

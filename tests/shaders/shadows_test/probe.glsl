@@ -26,8 +26,9 @@ void main() {
   ShadowProbeResult result;
   result.visibility = 1.0;
   for (bool go = directional; go; go = false)
-    result.visibility = directional_visibility(probe.light, probe.light_vector, r);
-  for (bool go = !directional; go; go = false) result.visibility = local_visibility(probe.light, probe.light_vector, r);
+    result.visibility = directional_visibility(probe.light, probe.light_vector, r, 0.0);
+  for (bool go = !directional; go; go = false)
+    result.visibility = local_visibility(probe.light, probe.light_vector, r, 0.0);
 
   ShadowPoint p = directional ? directional_shadow_point(probe.light, probe.light_vector, r)
                               : local_shadow_point(probe.light, probe.light_vector, r);

@@ -281,7 +281,8 @@ class ComposeCloseup : public test::ShadowKernelTest {
     d.in_out(18, lists.commands);
     d.in_out(19, lists.fallback);
     d.sampled(20, gpu::Format::rg32_float, Wall::tiles(), wall.bounds);
-    d.sampled(21, gpu::Format::rg32_uint, {1, 1}, std::vector<uvec2>(1));  // not read: no terminator
+    d.sampled(21, gpu::Format::rg32_uint, {1, 1}, std::vector<uvec2>(1));     // not read: no terminator
+    d.sampled(22, gpu::Format::rgba16_float, {1, 1}, std::vector<uvec2>(1));  // not read: no light passes through
     test::ProbeSettings filter{.filter = s.standard ? 3u : 0u, .levels = (1u << s.bits) - 1, .standard = s.standard};
     auto constants = filter.constants();
     constants.set("local_size_x", s.threads);

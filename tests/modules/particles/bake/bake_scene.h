@@ -42,6 +42,7 @@ class WallTracer final : public SceneTracer {
       blocked[i] = crosses(from, from + dvec3(rays[i].direction) * to) ? 1 : 0;
     }
   }
+  void through_body(std::span<const ShadowRay>, std::span<BodyPath>, std::span<const std::uint32_t>) const override {}
   void nearest(const SceneAssets&, std::span<const SurfaceRay>, std::span<TracedSurface>) const override {}
   [[nodiscard]] std::span<const EmissiveMesh> emissive_meshes() const override { return {}; }
   [[nodiscard]] std::uint64_t triangles() const override { return 2; }

@@ -239,8 +239,9 @@ class GenerateShadows : public test::ShadowKernelTest {
     d.sampled(16, gpu::Format::rgba8_unorm, {1, 1}, white, gpu::ImageShape::array);
     d.sampled(17, gpu::Format::rgba8_unorm, {1, 1}, white, gpu::ImageShape::array);
     d.input(18, std::vector{commands});
-    d.input(19, std::vector<std::uint32_t>{0});                            // no tile is reserved
-    d.sampled(21, gpu::Format::rg32_uint, {1, 1}, std::vector<uvec2>(1));  // not read: no terminator
+    d.input(19, std::vector<std::uint32_t>{0});                               // no tile is reserved
+    d.sampled(21, gpu::Format::rg32_uint, {1, 1}, std::vector<uvec2>(1));     // not read: no terminator
+    d.sampled(22, gpu::Format::rgba16_float, {1, 1}, std::vector<uvec2>(1));  // not read: no light passes through
     auto constants = s.filter.constants();
     constants.set("local_size_x", s.threads);
     constants.set("kVisibilityBits", s.bits);

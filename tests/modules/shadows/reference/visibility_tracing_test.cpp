@@ -309,6 +309,55 @@ TEST(VisibilityTracing, light_reaches_subsurface_materials_from_either_side) {
   EXPECT_TRUE(std::ranges::all_of(traced.visibility, [](std::uint8_t seen) { return seen == 255; }));
 }
 
+/// The floor is the top of a slab of this thickness that light passes through; all of it is seen from above.
+void make_slab(VisibilityScene& scene, double thickness_m, double extinction_m, bool mirrored) {
+  scene.look_from({0.0, 3.0, 0.001}, true);
+  const auto root = float_to_half(static_cast<float>(std::sqrt(extinction_m)));
+  scene.geometry.emissive.assign(scene.geometry.depth.size(), uvec2(0u, std::uint32_t{root} << 16));
+  dmat4 matrix = glm::translate(dmat4(1.0), dvec3(0.0, -0.5 * thickness_m, 0.0));
+  if (mirrored) matrix[0] = -matrix[0];
+  scene.maker.draw(scene.maker.mesh(test::box(vec3(20.0f, static_cast<float>(0.5 * thickness_m), 20.0f))), matrix);
+}
+
+TEST(VisibilityTracing, light_through_a_body_falls_with_its_way_inside) {
+  for (const bool mirrored : {false, true})
+    for (const double thickness : {0.01, 0.1, 0.5}) {
+      constexpr double kExtinction = 0.0625;
+      VisibilityScene scene;
+      make_slab(scene, thickness, kExtinction, mirrored);
+      scene.light({.kind = LightKind::point, .intensity = 100.0f}, {0.0, -2.0, 0.0});
+      const TracedVisibility traced = scene.trace(1);
+      for (std::uint32_t y = 0; y < traced.height; ++y)
+        for (std::uint32_t x = 0; x < traced.width; ++x) {
+          const dvec3 to = dvec3(0.0, -2.0, 0.0) - scene.point(x, y);
+          const double way = thickness * glm::length(to) / -to.y;
+          EXPECT_NEAR(traced.visibility[y * traced.width + x], 255.0 * std::exp(-way / kExtinction), 1.0);
+        }
+    }
+}
+
+TEST(VisibilityTracing, light_that_something_else_blocks_does_not_pass_through_a_body) {
+  VisibilityScene scene;
+  make_slab(scene, 0.01, 0.0625, false);
+  scene.sheet(-1.0, {-20.0, 0.0, -20.0}, {20.0, 0.0, 20.0});
+  scene.light({.kind = LightKind::point, .intensity = 100.0f, .width_m = 0.2f}, {0.0, -2.0, 0.0});
+  const TracedVisibility traced = scene.trace(16);
+  EXPECT_TRUE(std::ranges::all_of(traced.visibility, [](std::uint8_t seen) { return seen == 0; }));
+}
+
+TEST(VisibilityTracing, a_sheet_lets_all_of_the_light_through) {
+  VisibilityScene scene;
+  make_slab(scene, 0.01, 0.0625, false);
+  const GeometryPicture thin = scene.geometry;
+  VisibilityScene other;
+  other.look_from({0.0, 3.0, 0.001}, true);
+  other.geometry.emissive = thin.emissive;
+  other.sheet(0.0, {-20.0, 0.0, -20.0}, {20.0, 0.0, 20.0});
+  other.light({.kind = LightKind::directional, .intensity = 1.0f, .apparent_angle = 0.01f}, {}, {0.3, 1.0, 0.1});
+  const TracedVisibility traced = other.trace(16);
+  EXPECT_TRUE(std::ranges::all_of(traced.visibility, [](std::uint8_t seen) { return seen == 255; }));
+}
+
 TEST(VisibilityTracing, a_sheet_three_millimetres_above_the_floor_casts_its_shadow) {
   VisibilityScene scene;
   scene.sheet(0.0, {-20.0, 0.0, -20.0}, {20.0, 0.0, 20.0});

@@ -47,6 +47,23 @@ TEST(KeyImport, scene_and_material_keys_are_set) {
   EXPECT_EQ(import.world.resource<SceneEnvironment>().exposure_ev100, -3.0f);
 }
 
+TEST(KeyImport, extinction_lengths_default_to_five_millimetres_of_the_file) {
+  for (const auto& [scale, length] : {std::pair("1", 0.005f), std::pair("0.01", 0.5f), std::pair("1000", 0.000005f)}) {
+    GltfText gltf;
+    gltf.add("materials", R"({"extras": {"gloam.subsurface": true}})");
+    gltf.add("materials", R"({"extras": {"gloam.subsurface": true, "gloam.subsurface.extinction": 0.25}})");
+    gltf.add("materials", R"({"extras": {"gloam.subsurface.extinction": 0.25}})");
+    gltf.add("scenes", std::string(R"({"extras": {"gloam.scale": )") + scale + "}}");
+    Import import;
+    test::import_text(gltf.text(), import);
+    ASSERT_EQ(import.fault(), "");
+    const std::vector<Material>& materials = import.world.resource<SceneAssets>().materials;
+    EXPECT_FLOAT_EQ(extinction_length(materials[0]), length) << scale;
+    EXPECT_EQ(extinction_length(materials[1]), 0.25f) << "stated in units of the file";
+    EXPECT_EQ(extinction_length(materials[2]), 0.0f) << "not a subsurface material";
+  }
+}
+
 TEST(KeyImport, keys_of_scenes_that_are_not_chosen_are_checked_and_not_set) {
   GltfText gltf;
   gltf.add("scenes", "{}");
