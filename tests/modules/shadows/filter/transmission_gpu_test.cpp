@@ -185,10 +185,10 @@ TEST_F(ShadowTransmission, a_ball_is_bright_at_its_rim_and_dark_in_its_middle) {
   const Material material = flesh(kLength);
   thing(test::round_ball(static_cast<float>(kRadius), 96, 64, scene.material(material)));
   for (const NamedLight& light : {NamedLight{"sun", sun(), dvec3(0.0), dvec3(0.0, 0.0, 1.0)},
-                                  NamedLight{"lamp", point(), dvec3(0.0, 0.0, -6.0), dvec3(0.0, 0.0, 1.0)}}) {
+                                  NamedLight{"lamp", point(), dvec3(0.2, 0.1, -1.5), dvec3(0.0, 0.0, 1.0)}}) {
     shine(light);
     const LinearPicture seen = drawn();
-    double worst = 0.0, rim = 0.0, middle = 1.0;
+    double worst = 0.0, mean = 0.0, rim = 0.0, middle = 1.0;
     std::size_t pixels = 0;
     for (std::uint32_t y = 0; y < settings.height; ++y)
       for (std::uint32_t x = 0; x < settings.width; ++x) {
@@ -202,13 +202,18 @@ TEST_F(ShadowTransmission, a_ball_is_bright_at_its_rim_and_dark_in_its_middle) {
         if (cosine < 0.15) continue;
         const double expected = std::exp(-2.0 * kRadius * cosine / static_cast<double>(kLength));
         const double share = pixel(seen, x, y).x / passed(material, normal, arrival).x;
-        worst = std::max(worst, std::abs(share - expected));
+        // At the rim the depth of the ball changes by many millimetres in a texel of the map.
+        if (cosine > 0.3) worst = std::max(worst, std::abs(share - expected));
+        mean += std::abs(share - expected);
         if (cosine < 0.3) rim = std::max(rim, share);
-        if (cosine > 0.98) middle = std::min(middle, share);
+        if (cosine > 0.95) middle = std::min(middle, share);
         ++pixels;
       }
-    std::printf("%-6s worst %.4f, rim %.3f, middle %.3f, %zu pixels\n", light.name, worst, rim, middle, pixels);
+    mean /= static_cast<double>(std::max<std::size_t>(pixels, 1));
+    std::printf("%-6s worst %.4f, mean %.4f, rim %.3f, middle %.3f, %zu pixels\n", light.name, worst, mean, rim, middle,
+                pixels);
     EXPECT_LE(worst, 0.04) << light.name;
+    EXPECT_LE(mean, 0.01) << light.name;
     EXPECT_GE(pixels, 200u);
     EXPECT_GE(rim, 0.5);
     EXPECT_LE(middle, 0.1);
