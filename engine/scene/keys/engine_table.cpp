@@ -110,7 +110,7 @@ SceneKey extinction_key() {
   key.min = 0.0;
   key.max = 1e6;
   key.unit = "m";
-  key.default_text = "5 mm by gloam.scale";
+  key.default_text = "from gloam.scale: 5 mm";
   key.meaning =
       "length over which light inside a body with gloam.subsurface falls to 1/e (37 %); 0: no light passes through";
   key.set = [](KeyTarget& target, const KeyValue& value) -> Status {

@@ -232,7 +232,7 @@ std::vector<Line> camera_material_and_scene_lines() {
        "engine",
        KeyType::number,
        "m",
-       "5 mm by gloam.scale",
+       "from gloam.scale: 5 mm",
        number(0.25),
        {number(-0.1), text("thin")},
        material_field(&Material::extinction_m, 0.25f)},
