@@ -179,6 +179,26 @@ TEST_F(ShadowTransmission, a_wall_before_a_sheet_shadows_it) {
   }
 }
 
+TEST_F(ShadowTransmission, blended_sheets_let_light_through_as_others_do) {
+  Material material = flesh(0.005f, true);
+  material.alpha_mode = AlphaMode::blend;
+  leaf(material, 0.4);
+  const dvec3 normal(std::sin(0.4), 0.0, std::cos(0.4));
+  const auto worst = [&](double share) {
+    return deviation(drawn(), material, dvec3(0.0), normal, 0.15,
+                     [&](const dvec3&, const test::OracleArrival&) { return share; })
+        .worst;
+  };
+  for (const NamedLight& light : lights_behind()) {
+    shine(light);
+    EXPECT_LE(worst(kFullShare), 0.01) << light.name;
+    const Entity wall = box(dvec3(0.0, 0.0, -0.5), dvec3(2.0, 2.0, 0.01));
+    EXPECT_LE(worst(0.0), 1e-4) << light.name;
+    world.destroy(wall);
+    things.pop_back();
+  }
+}
+
 TEST_F(ShadowTransmission, a_ball_is_bright_at_its_rim_and_dark_in_its_middle) {
   constexpr double kRadius = 0.15;
   constexpr float kLength = 0.1f;
