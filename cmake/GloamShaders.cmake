@@ -17,6 +17,10 @@ set(GLOAM_SPIRV_PASSES --skip-validation --preserve-bindings --preserve-spec-con
   --eliminate-dead-code-aggressive --ssa-rewrite --eliminate-dead-code-aggressive
   CACHE INTERNAL "passes of spirv-opt")
 
+# A build of the same sources whose compiled shaders are copied in place of compiling them again. That build must be up to
+# date, and not of type Debug, whose shaders keep more names. Compiling takes 144 s of processor time.
+set(GLOAM_SHADERS_FROM "" CACHE PATH "Build folder whose compiled shaders are copied")
+
 # gloam_add_shaders(<folder> [FOR_TESTS] [<file.comp.glsl>…])
 # Compiles shaders/<folder>/<file> to SPIR-V and embeds it in the library gloam_shaders_<folder>. Without files: all
 # *.comp.glsl, *.vert.glsl and *.frag.glsl below shaders/<folder>. FOR_TESTS: the files are below
@@ -61,16 +65,21 @@ function(gloam_add_shaders folder)
     set(output ${out_dir}/${stem}.spv.h)
     get_filename_component(output_dir ${output} DIRECTORY)
     file(MAKE_DIRECTORY ${output_dir})
-    # The first command writes SPIR-V to the header's place, because the dependency file names that as its target.
-    add_custom_command(OUTPUT ${output}
-      COMMAND ${GLSLANG_VALIDATOR} --quiet -V --target-env vulkan1.3 -S ${stage} -I${PROJECT_SOURCE_DIR} -I${root}
-        --depfile ${output}.d -o ${output} ${source_dir}/${source}
-      COMMAND ${SPIRV_OPT} ${GLOAM_SPIRV_PASSES} ${output} -o ${output}.spv
-      COMMAND ${CMAKE_COMMAND} -DINPUT=${output}.spv -DOUTPUT=${output} -DNAME=${symbol}_words
-        -DALL_NAMES=$<CONFIG:Debug> -P ${GLOAM_SHADER_TOOLS}/EmbedSpirv.cmake
-      DEPENDS ${source_dir}/${source} ${GLOAM_SHADER_TOOLS}/EmbedSpirv.cmake
-      DEPFILE ${output}.d
-      COMMENT "Shader ${folder}/${source}" VERBATIM)
+    if(GLOAM_SHADERS_FROM)
+      set(compiled ${GLOAM_SHADERS_FROM}/generated/shaders/${folder}/${stem}.spv.h)
+      add_custom_command(OUTPUT ${output} COMMAND ${CMAKE_COMMAND} -E copy ${compiled} ${output} DEPENDS ${compiled} VERBATIM)
+    else()
+      # The first command writes SPIR-V to the header's place, because the dependency file names that as its target.
+      add_custom_command(OUTPUT ${output}
+        COMMAND ${GLSLANG_VALIDATOR} --quiet -V --target-env vulkan1.3 -S ${stage} -I${PROJECT_SOURCE_DIR} -I${root}
+          --depfile ${output}.d -o ${output} ${source_dir}/${source}
+        COMMAND ${SPIRV_OPT} ${GLOAM_SPIRV_PASSES} ${output} -o ${output}.spv
+        COMMAND ${CMAKE_COMMAND} -DINPUT=${output}.spv -DOUTPUT=${output} -DNAME=${symbol}_words
+          -DALL_NAMES=$<CONFIG:Debug> -P ${GLOAM_SHADER_TOOLS}/EmbedSpirv.cmake
+        DEPENDS ${source_dir}/${source} ${GLOAM_SHADER_TOOLS}/EmbedSpirv.cmake
+        DEPFILE ${output}.d
+        COMMENT "Shader ${folder}/${source}" VERBATIM)
+    endif()
     list(APPEND outputs ${output})
     string(APPEND declarations "extern const gpu::ShaderCode ${symbol};\n")
     string(APPEND includes "#include \"shaders/${folder}/${stem}.spv.h\"\n")

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: MIT
 # Functions shared by run.sh and test.sh. Sourced with the root as working directory and under `set -euo pipefail`.
 
-# configure PRESET FOLDER: configures the build in FOLDER once; after that the build reconfigures itself when needed.
-# Also configures again if FOLDER was moved here from another place, or if other sources are edited than before.
+# configure PRESET FOLDER [options of cmake]: configures the build in FOLDER once; after that the build reconfigures itself
+# when needed. Also configures again if FOLDER was moved here from another place, or if other sources are edited than before.
 configure() {
-  local preset=$1 folder=$2 options=() home="" edited alone=""
+  local preset=$1 folder=$2 options=("${@:3}") home="" edited alone=""
   if [ -f "$folder/CMakeCache.txt" ]; then
     home=$(sed -n 's/^CMAKE_HOME_DIRECTORY:INTERNAL=//p' "$folder/CMakeCache.txt")
     alone=$(sed -n 's/^GLOAM_SOURCES_ALONE:STRING=//p' "$folder/CMakeCache.txt")

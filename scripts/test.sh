@@ -36,7 +36,8 @@ configure release build
 build build
 run_tests release build release "$@"
 
-configure asan build-asan
+# The shaders are those of the release build: compiling them again would take a minute.
+configure asan build-asan -DGLOAM_SHADERS_FROM="$PWD/build"
 build build-asan gloam_sanitize_tests
 GLOAM_FUZZ_SECONDS=${GLOAM_FUZZ_SECONDS:-60} run_tests asan build-asan asan "$@"
 
