@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
+
 #include "engine/core/log.h"
 #include "engine/core/result.h"
+#include "engine/gpu/device.h"
 #include "sandbox/console.h"
 #include "sandbox/options.h"
 
@@ -14,6 +17,9 @@ struct CommandContext {
   const Options& options;
   Console& console;
   LogSink& log;
+  /// The device of `render`, in place of the one that --device, --validate and --cache-dir choose. Null: the command
+  /// opens its own.
+  std::shared_ptr<gpu::Device> device;
 };
 
 [[nodiscard]] Status run_play(const CommandContext& context);

@@ -96,7 +96,8 @@ Result<std::vector<FrameSample>> render_sequence(Session& session, const Command
 
 Status run_render(const CommandContext& context) {
   const Options& options = context.options;
-  auto opened = open_session(options, context.log);
+  auto opened =
+      context.device ? open_session_on(context.device, options, context.log) : open_session(options, context.log);
   if (!opened) return opened.error();
   Session& session = *opened.value();
   GLOAM_TRY(ensure_baked(session, options, context.log, &context.console));

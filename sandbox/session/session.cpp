@@ -82,7 +82,7 @@ Result<std::unique_ptr<Session>> open_session(const Options& options, LogSink& l
   return open_session_on(std::move(device).value(), options, log, std::move(more_modules));
 }
 
-Result<std::unique_ptr<Session>> open_session_on(std::unique_ptr<gpu::Device> device, const Options& options,
+Result<std::unique_ptr<Session>> open_session_on(std::shared_ptr<gpu::Device> device, const Options& options,
                                                  LogSink& log, ModuleList more_modules) {
   GLOAM_TRY(check_scene_exists(options.scene));
   auto session = open_empty_session(std::move(device), options, log, std::move(more_modules));
@@ -90,7 +90,7 @@ Result<std::unique_ptr<Session>> open_session_on(std::unique_ptr<gpu::Device> de
   return session;
 }
 
-Result<std::unique_ptr<Session>> open_empty_session(std::unique_ptr<gpu::Device> device, const Options& options,
+Result<std::unique_ptr<Session>> open_empty_session(std::shared_ptr<gpu::Device> device, const Options& options,
                                                     LogSink& log, ModuleList more_modules) {
   auto session = std::make_unique<Session>();
   session->executor = make_pool_executor(options.threads);

@@ -25,7 +25,7 @@ namespace gloam {
 /// reverse order.
 struct Session {
   std::unique_ptr<JobExecutor> executor;
-  std::unique_ptr<gpu::Device> device;
+  std::shared_ptr<gpu::Device> device;  ///< shared: sessions may follow one another on one device
   ZoneRecorder zones;
   std::unique_ptr<Renderer> renderer;
   World world;
@@ -63,13 +63,13 @@ struct WindowNeeds {
                                                             const WindowNeeds& window = {},
                                                             ModuleList more_modules = {});
 /// As open_session, on a device that exists already; --device, --validate and --cache-dir are not read.
-[[nodiscard]] Result<std::unique_ptr<Session>> open_session_on(std::unique_ptr<gpu::Device> device,
+[[nodiscard]] Result<std::unique_ptr<Session>> open_session_on(std::shared_ptr<gpu::Device> device,
                                                                const Options& options, LogSink& log,
                                                                ModuleList more_modules = {});
 
 /// The two halves of open_session_on: a session without a scene, and its scene. fill_session draws nothing, so it may
 /// run on another thread than the one that draws frames on the device; the session is not used meanwhile.
-[[nodiscard]] Result<std::unique_ptr<Session>> open_empty_session(std::unique_ptr<gpu::Device> device,
+[[nodiscard]] Result<std::unique_ptr<Session>> open_empty_session(std::shared_ptr<gpu::Device> device,
                                                                   const Options& options, LogSink& log,
                                                                   ModuleList more_modules = {});
 [[nodiscard]] Status fill_session(Session& session, const Options& options, LogSink& log);

@@ -38,6 +38,8 @@ def lit_card(**camera):
 
 
 class LegalNumbers(ProgramCase):
+    shares_process = True
+
     def setUp(self):
         super().setUp()
         self.require_device()

@@ -54,6 +54,8 @@ def mirrored_rays():
 
 
 class MirroredPanes(ProgramCase):
+    shares_process = True
+
     def setUp(self):
         super().setUp()
         self.require_device()

@@ -104,6 +104,8 @@ CHANGES = ((in_units, (0.001, 0.1, 1000), CASES), (moved, (10, 1e4), CASES),
 
 
 class Mutations(ProgramCase):
+    shares_process = True
+
     def setUp(self):
         super().setUp()
         self.cases = self.source.parent / "shared" / "cases"

@@ -41,6 +41,8 @@ def shadowed_on_the_floor(width=WIDTH, height=HEIGHT):
 
 
 class NearCasters(ProgramCase):
+    shares_process = True
+
     def setUp(self):
         super().setUp()
         self.require_device()

@@ -128,6 +128,8 @@ def lawn(sun=False):
 
 
 class Scale(ProgramCase):
+    shares_process = True
+
     def setUp(self):
         super().setUp()
         self.require_device()

@@ -62,6 +62,8 @@ def link_or_copy(source, target):
 
 
 class ShaderCache(ProgramCase):
+    shares_process = True
+
     def setUp(self):
         super().setUp()
         self.require_device()

@@ -82,8 +82,10 @@ def read_png(path):
             left, corner = (line[i - step], above[i - step]) if i >= step else (0, 0)
             line[i] = (line[i] + (0, left, above[i], (left + above[i]) // 2, paeth(left, above[i], corner))[kind]) & 255
         above = line
-        for x in range(width):
-            rgb += line[step * x:step * x + 3]
+        if step == 4:
+            line = bytearray(line)
+            del line[3::4]
+        rgb += line
     return Picture(width, height, bytes(rgb))
 
 
@@ -136,11 +138,12 @@ class Display:
         self.x11.XGetGeometry(self.handle, ctypes.c_ulong(window), *map(ctypes.byref, (root, x, y, width, height, border, depth)))
         return width.value, height.value
 
-    def photograph(self, window):
-        """What the window shows."""
+    def photograph(self, window, taken=lambda: None):
+        """What the window shows. taken() is called as soon as the program may change the window."""
         width, height = self.size(window)
         image = self.x11.XGetImage(self.handle, ctypes.c_ulong(window), 0, 0, width, height, ALL_PLANES, Z_PIXMAP).contents
         raw = ctypes.string_at(image.data, image.bytes_per_line * height)
+        taken()
         rgb = bytearray(3 * width * height)
         for y in range(height):
             row = raw[y * image.bytes_per_line:y * image.bytes_per_line + 4 * width]
@@ -175,9 +178,7 @@ class Running:
         self.wait_said(name)
         # The picture of the last frame before `say` may be on its way.
         time.sleep(0.3)
-        picture = self.display.photograph(self.display.find())
-        (self.folder / (name + ".seen")).touch()
-        return picture
+        return self.display.photograph(self.display.find(), (self.folder / (name + ".seen")).touch)
 
     def end(self):
         output, errors = self.program.communicate(timeout=240)
