@@ -118,6 +118,27 @@ endfunction()
 # The Vulkan driver of entries labelled second_device: SwiftShader, which Debian's package chromium brings.
 set(GLOAM_SECOND_DRIVER "/usr/lib/chromium/vk_swiftshader_icd.json" CACHE FILEPATH "Driver file of SwiftShader")
 
+# Seconds of processor time of the longest entries, in round numbers. CTest starts these first, the longest before the
+# others, so that no core is idle at the end while one of them still runs. A clean clone has no times of former runs.
+set(GLOAM_ENTRY_COSTS
+  shadows_kernels_tests.width16=95 final_lists_on_gpu_tests.width8=85 program.shader_cache=80 program.play_tour=80
+  shadow_maps_on_gpu_tests.width8=80 depth_of_field_kernel_tests.width16=65 shadows_hard_tests.width8=60 fuzz.loader=60
+  deferred_shadows_tests.width8=50 embedding=50 depth_of_field_kernel_tests.second_device=40 closeups_on_gpu_tests.width8=40
+  program.legal_numbers=40 golden_tests=40 embedding_clang=40 grass_gpu_tests.width8=30 program.cost=30
+  reflections_kernel_tests.width16=20 reflections_kernel_tests.width4=20 list_flight_tests=20 lighting_gpu_tests.width8=20
+  session_captures_tests=15 light_flight_tests=15 program.render=15)
+
+# gloam_start_early(<entry>): sets the cost of an entry in the list above.
+function(gloam_start_early entry)
+  set(cost ${GLOAM_ENTRY_COSTS})
+  string(REPLACE "." "\\." pattern ${entry})
+  list(FILTER cost INCLUDE REGEX "^${pattern}=")
+  if(cost)
+    string(REGEX REPLACE "^.*=" "" cost ${cost})
+    set_tests_properties(${entry} PROPERTIES COST ${cost})
+  endif()
+endfunction()
+
 # gloam_add_second_device_entry(<name> COMMAND program [arguments…])
 # Adds a CTest entry whose tests run on SwiftShader, beside the other drivers of the machine. It is skipped if the driver
 # is absent.
@@ -127,6 +148,7 @@ function(gloam_add_second_device_entry name)
   set_tests_properties(${name} PROPERTIES LABELS "gpu;second_device" TIMEOUT ${GLOAM_TEST_TIMEOUT}
     FAIL_REGULAR_EXPRESSION "Running 0 tests" SKIP_REGULAR_EXPRESSION "there is no usable Vulkan device"
     ENVIRONMENT "VK_ADD_DRIVER_FILES=${GLOAM_SECOND_DRIVER};GLOAM_TEST_DEVICE=swiftshader;MESA_SHADER_CACHE_DIR=${PROJECT_BINARY_DIR}/shader_cache")
+  gloam_start_early(${name})
 endfunction()
 
 # gloam_add_entries(<suite> COMMAND program [arguments…] [LABELS …] [WIDTHS …] [ENVIRONMENT …])
@@ -151,6 +173,9 @@ function(gloam_add_entries suite)
   # Without this, a filter that matches no test would pass.
   set_tests_properties(${entries} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${GLOAM_TEST_TIMEOUT}
     FAIL_REGULAR_EXPRESSION "Running 0 tests")
+  foreach(entry IN LISTS entries)
+    gloam_start_early(${entry})
+  endforeach()
   list(LENGTH ARG_WIDTHS count)
   if(count GREATER 1 AND 256 IN_LIST ARG_WIDTHS)
     set_property(TEST ${suite}.width8 APPEND PROPERTY LABELS width8)

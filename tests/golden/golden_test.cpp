@@ -30,13 +30,12 @@ Options golden_options(const std::string& scene, const std::string& camera) {
   options.camera = camera;
   options.width = kWidth;
   options.height = kHeight;
-  options.validate = true;
   return options;
 }
 
 /// The picture of the last of these frames; fails the test on any error or validation message.
 Picture draw(const Options& options, int frames = 1) {
-  auto session = open_session(options, gpu_log());
+  auto session = open_session_on(shared_test_device(), options, gpu_log());
   if (!session) {
     ADD_FAILURE() << session.error().message;
     return {};
@@ -94,7 +93,7 @@ void expect_golden(const Picture& picture, const std::string& name, double toler
 class Golden : public testing::Test {
  protected:
   void SetUp() override {
-    const auto device = make_test_device(false);
+    const auto& device = shared_test_device();
     GLOAM_REQUIRE_GPU(device);
     GLOAM_REQUIRE_DEPTH_TESTS(device);
   }

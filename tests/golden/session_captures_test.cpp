@@ -47,7 +47,7 @@ struct SessionCaptures : testing::Test {
   Options options;
 
   void SetUp() override {
-    const auto device = make_test_device(false);
+    const auto& device = shared_test_device();
     GLOAM_REQUIRE_GPU(device);
     GLOAM_REQUIRE_DEPTH_TESTS(device);
     options.scene = folder.write("swing.gltf", scene_text());
@@ -55,7 +55,7 @@ struct SessionCaptures : testing::Test {
     options.time_s = 0.3;
   }
   [[nodiscard]] std::unique_ptr<Session> open() const {
-    auto session = open_session_on(make_test_device(), options, gpu_log());
+    auto session = open_session_on(shared_test_device(), options, gpu_log());
     EXPECT_TRUE(session.ok()) << session.error().message;
     return session ? std::move(*session) : nullptr;
   }

@@ -41,7 +41,7 @@ class ViewValues : public testing::Test {
  protected:
   static constexpr std::uint32_t kWidth = 96, kHeight = 54;
   void SetUp() override {
-    const auto device = make_test_device(false);
+    const auto& device = shared_test_device();
     GLOAM_REQUIRE_GPU(device);
     GLOAM_REQUIRE_DEPTH_TESTS(device);
   }
@@ -52,7 +52,7 @@ class ViewValues : public testing::Test {
     options.width = kWidth;
     options.height = kHeight;
     options.view = shown;
-    auto opened = open_session(options, gpu_log());
+    auto opened = open_session_on(shared_test_device(), options, gpu_log());
     if (!opened) {
       ADD_FAILURE() << opened.error().message;
       return {};

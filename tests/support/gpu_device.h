@@ -54,6 +54,13 @@ inline LogSink& gpu_log() {
   return nullptr;
 }
 
+/// The device of all tests of a program that need none of their own: pipelines are compiled once. Null if the machine
+/// has none. A validation message in one test fails those after it, too.
+[[nodiscard]] inline const std::shared_ptr<gpu::Device>& shared_test_device() {
+  static const std::shared_ptr<gpu::Device> device = make_test_device();
+  return device;
+}
+
 /// Skips the running test with a message if `device` is null.
 #define GLOAM_REQUIRE_GPU(device) \
   if ((device) == nullptr) GTEST_SKIP() << "there is no usable Vulkan device on this machine"
