@@ -125,7 +125,7 @@ set(GLOAM_ENTRY_COSTS
   shadow_maps_on_gpu_tests.width8=80 depth_of_field_kernel_tests.width16=65 shadows_hard_tests.width8=60 fuzz.loader=60
   deferred_shadows_tests.width8=50 embedding=50 depth_of_field_kernel_tests.second_device=40 closeups_on_gpu_tests.width8=40
   program.legal_numbers=40 golden_tests=40 embedding_clang=40 grass_gpu_tests.width8=30 program.cost=30
-  reflections_kernel_tests.width16=20 reflections_kernel_tests.width4=20 list_flight_tests=20 lighting_gpu_tests.width8=20
+  reflections_kernel_tests.width16=20 list_flight_tests=20 lighting_gpu_tests.width8=20
   session_captures_tests=15 light_flight_tests=15 program.render=15)
 
 # gloam_start_early(<entry>): sets the cost of an entry in the list above.

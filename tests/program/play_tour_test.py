@@ -109,7 +109,7 @@ class PlayTour(WindowCase):
             """Stops with the pointer away from the panel's widgets, so that no tooltip covers the picture."""
             return "move 700 20\n" + stop(name)
 
-        run = self.start("builtin:shadows", "--size", "760x740", "--scale", "1", "--dt", "0", "--validate", size=(800, 760),
+        run = self.start("builtin:shadows", "--size", "760x740", "--scale", "0.5", "--dt", "0", "--validate", size=(800, 760),
                          script="key tab\n" + still("open") + "click_widget lights\nwait 2\nclick_widget moon mute\n" + still("muted") +
                          "click_widget moon mute\nwait 2\nclick_widget lamp solo\n" + still("solo") +
                          "click_widget lamp solo\nclick_widget lights\nwait 2\nclick_widget keep A\nclick_widget search\n"

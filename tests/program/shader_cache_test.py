@@ -19,7 +19,7 @@ from program_case import CACHE, LONG, ProgramCase, main
 
 FRAMES = 16  # more than pipelines that share a shader: each opens its file once
 SIZES = ("1x1", "7x5", "33x31", "96x54", "127x71", "200x112", "320x180", "400x225", "480x270", "512x288", "853x480", "1280x720")
-SHORT_SIZES = ("1x1", "7x5", "33x31", "96x54", "127x71", "200x112", "213x120", "240x135", "53x30", "107x60", "187x105", "160x90")
+SHORT_SIZES = ("1x1", "7x5", "33x31", "96x54", "127x71", "100x56", "113x64", "120x67", "53x30", "107x60", "93x52", "80x45")
 IN_OPEN = 0x20
 
 
