@@ -63,7 +63,8 @@ KnobRegistry knobs_of(const ModuleList& modules) {
 /// What SessionCosts measures.
 std::string clock_of(gpu::DeviceType type) {
   if (type != gpu::DeviceType::cpu) return "CPU time plus GPU time of a frame, on the wall";
-  return formatted("processor time of a frame, divided by %u cores", usable_cores());
+  const std::uint32_t cores = usable_cores();
+  return cores == 1 ? "processor time of a frame" : formatted("processor time of a frame, divided by %u cores", cores);
 }
 
 LedgerHeader header_of(const Session& session, const Options& options) {

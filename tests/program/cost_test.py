@@ -118,6 +118,31 @@ class Cost(ProgramCase):
             self.assertIn(f"{done} of 2 rows were measured before", self.expect(0, *command).stdout)
             self.assertEqual(len(self.read_json(f"{folder}/ledger.json")["rows"]), 2)
 
+    def test_two_runs_at_once_share_a_folder(self):
+        command = [self.program, *QUICK, "--size", "64x36", "--out", "shared"]
+        environment = dict(os.environ, XDG_CACHE_HOME=str(self.folder / "cache"))
+        runs = [subprocess.Popen(command, cwd=self.folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                 text=True) for _ in range(2)]
+        for run in runs:
+            _, errors = run.communicate(timeout=240)
+            self.assertEqual((run.returncode, errors), (0, ""))
+        self.assertEqual([row["value"] for row in self.read_json("shared/ledger.json")["rows"]], ["brute", "tiled"])
+
+    def test_a_scene_without_lights_on_one_core(self):
+        scene = GltfScene()
+        scene.node(mesh=scene.card(scene.material()))
+        scene.camera(translation=[0, 0, 3])
+        (self.folder / "dark.gltf").write_text(scene.text())
+        cores = os.sched_getaffinity(0)
+        os.sched_setaffinity(0, {min(cores)})
+        try:
+            run = self.expect(0, "cost", "dark.gltf", "--quick", "--size", "64x36", "--knobs", "lights.*,lighting.dither",
+                              "--set", "scene.default_light=off", "--out", "ledger")
+        finally:
+            os.sched_setaffinity(0, cores)
+        self.assertIn("times: processor time of a frame\n", run.stdout)
+        self.assertIn("lights.culling: no effect here", run.stdout)
+
     def test_other_knobs_stay_as_they_are_set(self):
         self.expect(0, *QUICK, "--out", "ledger")
         run = self.expect(0, *QUICK, "--out", "ledger", "--set", "lighting.tone_map=linear")
