@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -82,6 +83,11 @@ class CostProgress {
   virtual void measuring(const std::string& knob, const std::string& value, std::size_t done, std::size_t total) = 0;
   /// `resumed`: the row was found in the folder and nothing was drawn.
   virtual void finished(const LedgerRow& row, bool resumed) = 0;
+  /// A picture of a row that was just measured. `name`: one of row_pictures(), which is the same for equal pictures.
+  [[nodiscard]] virtual Status picture(const std::string& /*name*/, const Picture& /*picture*/) { return {}; }
+  /// Whether picture() was called with this name, now or in the run that a stored row comes from. A stored row that
+  /// lacks a picture is measured again.
+  [[nodiscard]] virtual bool has_picture(const std::string& /*name*/) { return true; }
 };
 
 struct CostRequest {
@@ -112,11 +118,32 @@ inline constexpr std::uint32_t kQuickHeight = 180;
 /// the default and the exact value.
 [[nodiscard]] std::vector<std::string> ledger_values(const Knob& knob);
 
+/// Names of all pictures of a row.
+[[nodiscard]] std::vector<std::string> row_pictures(const LedgerRow& row);
+
 /// Measures every value of every knob of the request: its error against the knob's reference, or by the knob's measure
 /// if it has one; and its time, alternating with the default until the ratio is known well enough or `frames` are
 /// timed. All rows of the default have the same time: that of all its frames. Rows that an earlier run finished are not
 /// measured again. The knobs have their previous values afterwards. An error names the knob and the value.
 [[nodiscard]] Result<Ledger> measure_costs(const CostRequest& request, CostSubject& subject, CostProgress& progress);
+
+struct KnobMeaning {
+  std::string knob;
+  std::string meaning;  ///< one sentence
+};
+
+/// Contents of a report beside its ledger.
+struct ReportRequest {
+  std::string command;  ///< the command line that measures the ledger again
+  std::vector<KnobMeaning> meanings;
+  /// The bytes of a PNG or JPEG file for one of row_pictures(), small enough to be embedded; nullopt: there is none. A
+  /// picture that it finds must also lie at pictures/NAME.png beside the report, which links to it. May be empty.
+  std::function<std::optional<std::string>(const std::string& name)> picture;
+};
+
+/// A page that shows a ledger to somebody who must decide what to turn down: HTML with everything in it, below 3 MB.
+/// Pictures for which there is no room are only linked. The same ledger and request give the same text.
+[[nodiscard]] std::string ledger_report(const Ledger& ledger, const ReportRequest& request);
 
 /// A tracer of the world's triangles as its systems left them. The triangles are copied, so the world may change.
 /// `origin`: the world position that rays are relative to; precision is best if it is near their origins. None: the

@@ -35,6 +35,15 @@ struct CountedError {
   bool operator==(const CountedError&) const = default;
 };
 
+/// A rectangle of a picture's pixels.
+struct PictureArea {
+  std::uint32_t x = 0;
+  std::uint32_t y = 0;
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  bool operator==(const PictureArea&) const = default;
+};
+
 /// Result for one value of one knob; all other knobs are as the user set them.
 struct LedgerRow {
   std::string knob;
@@ -70,9 +79,11 @@ struct LedgerRow {
   double ratio_high = 1.0;
   double sure_low = 1.0;  ///< 99.8 % interval, by which values with equal pictures are told apart
   double sure_high = 1.0;
-  std::uint32_t pairs = 0;      ///< of frames that were timed
-  std::uint64_t gpu_bytes = 0;  ///< of all modules
-  std::string picture;          ///< hash of the value's picture and light
+  std::uint32_t pairs = 0;         ///< of frames that were timed
+  std::uint64_t gpu_bytes = 0;     ///< of all modules
+  std::string picture;             ///< hash of the value's picture and light
+  std::string reference_picture;   ///< the same of its reference; empty: the reference has no picture
+  std::vector<PictureArea> worst;  ///< where mean FLIP is highest, the worst first; apart, and of one size
   /// The picture is equal to the default's to the bit, and no difference in time is significant.
   bool no_effect = false;
   bool on_front = false;  ///< see mark_pareto_front()
@@ -80,6 +91,11 @@ struct LedgerRow {
   /// The error for the front and for reports: `counted` if set; otherwise mean FLIP or, without FLIP, RMSE, and at
   /// least reference_noise. None if none of them is set.
   [[nodiscard]] std::optional<double> error() const;
+  /// Names of the pictures that measuring gives to CostProgress::picture, beside `picture` and `reference_picture`: the
+  /// FLIP of each pixel in colours, and the worst areas (a line for each: the value's, then the reference's). Empty:
+  /// the row has no FLIP, or it is 0 everywhere.
+  [[nodiscard]] std::string heat_map() const;
+  [[nodiscard]] std::string worst_areas() const;
   bool operator==(const LedgerRow&) const = default;
 };
 

@@ -12,6 +12,7 @@
 #include "sandbox/commands/commands.h"
 #include "sandbox/output/file_io.h"
 #include "sandbox/output/identity.h"
+#include "sandbox/output/pictures/picture_folder.h"
 #include "sandbox/output/progress_bar.h"
 #include "sandbox/session/baking/captures.h"
 #include "sandbox/session/drawing/session_costs.h"
@@ -21,16 +22,20 @@
 namespace gloam {
 namespace {
 
-/// Shows a progress bar on a terminal, otherwise a line for each finished row.
+/// Shows a progress bar on a terminal, otherwise a line for each finished row. Keeps the pictures.
 class ConsoleProgress final : public CostProgress {
  public:
-  ConsoleProgress(Console& console, bool quiet) : console_(console), quiet_(quiet) {}
+  ConsoleProgress(Console& console, const PictureFolder& pictures, bool quiet)
+      : console_(console), pictures_(pictures), quiet_(quiet) {}
 
   void measuring(const std::string& knob, const std::string& value, std::size_t done, std::size_t total) override {
     if (measured_ == 0) begin_ = Clock::now();
     const double elapsed_s = std::chrono::duration<double>(Clock::now() - begin_).count();
     if (!quiet_) console_.show_progress(progress_line(done, total, knob + "=" + value, measured_, elapsed_s));
   }
+
+  Status picture(const std::string& name, const Picture& picture) override { return pictures_.save(name, picture); }
+  bool has_picture(const std::string& name) override { return pictures_.has(name); }
 
   void finished(const LedgerRow& row, bool resumed) override {
     ++(resumed ? resumed_ : measured_);
@@ -48,6 +53,7 @@ class ConsoleProgress final : public CostProgress {
  private:
   using Clock = std::chrono::steady_clock;
   Console& console_;
+  const PictureFolder& pictures_;
   bool quiet_ = false;
   std::size_t measured_ = 0;
   std::size_t resumed_ = 0;
@@ -120,6 +126,47 @@ CostRequest make_request(Session& session, const Options& options, const std::ve
   return request;
 }
 
+/// In quotes for a shell, if it needs them.
+std::string shell_word(const std::string& text) {
+  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./:=,+@%";
+  if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+/// The command line that measures the ledger again: all options that change a row.
+std::string command_line(const Options& options) {
+  std::string line = "gloam cost " + shell_word(options.scene) + " --out " + shell_word(options.out);
+  const auto add = [&](std::string_view name, const std::string& value, bool given) {
+    if (given) line.append(" ").append(name).append(" ").append(shell_word(value));
+  };
+  const Options standard;
+  if (options.quick) line += " --quick";
+  add("--size", formatted("%ux%u", options.width, options.height), options.size_given);
+  add("--knobs", options.knobs, !options.knobs.empty());
+  add("--camera", options.camera, !options.camera.empty());
+  add("--time", formatted("%.17g", options.time_s), options.time_s != standard.time_s);
+  add("--dt", formatted("%.17g", options.dt_s), options.dt_s != standard.dt_s);
+  add("--frames", std::to_string(options.frames), options.frames != standard.frames);
+  add("--seed", std::to_string(options.seed), options.seed != standard.seed);
+  add("--view", options.view, options.view != standard.view);
+  add("--animation", options.animation, !options.animation.empty());
+  add("--device", options.device, options.device != standard.device);
+  add("--threads", std::to_string(options.threads), options.threads != standard.threads);
+  add("--config", options.config, !options.config.empty());
+  for (const std::string& assignment : options.assignments) add("--set", assignment, true);
+  return line;
+}
+
+Status write_report(const Ledger& ledger, const Options& options, const KnobRegistry& knobs,
+                    const PictureFolder& pictures) {
+  ReportRequest request = {.command = command_line(options)};
+  for (const Knob& knob : knobs.knobs()) request.meanings.push_back({knob.name, knob.meaning});
+  request.picture = [&](const std::string& name) { return pictures.small_file(name); };
+  return write_file(options.out + "/report.html", ledger_report(ledger, request));
+}
+
 Status write_ledger(const Ledger& ledger, const std::string& folder) {
   GLOAM_TRY(make_folder_of(folder + "/ledger.json"));
   GLOAM_TRY(write_file(folder + "/ledger.json", ledger_json(ledger)));
@@ -144,18 +191,20 @@ Status run_cost(const CommandContext& context) {
   if (!session) return session.error();
   GLOAM_TRY(ensure_baked(*session.value(), options, context.log, &context.console));
   SessionCosts costs(*session.value(), options);
-  ConsoleProgress progress(context.console, options.quiet);
+  const PictureFolder pictures(options.out + "/pictures");
+  ConsoleProgress progress(context.console, pictures, options.quiet);
   auto ledger = measure_costs(make_request(*session.value(), options, *chosen), costs, progress);
   context.console.show_progress("");
   if (!ledger) return ledger.error();
   GLOAM_TRY(session.value()->check_validation());
   GLOAM_TRY(write_ledger(*ledger, options.out));
+  GLOAM_TRY(write_report(*ledger, options, session.value()->renderer->knobs(), pictures));
   context.console.print(ledger_table(*ledger));
   if (options.quiet) return {};
   if (progress.resumed() > 0)
     context.console.print(std::to_string(progress.resumed()) + " of " + std::to_string(ledger->rows.size()) +
                           " rows were measured before\n");
-  context.console.print("wrote " + options.out + "/ledger.json and ledger.csv\n");
+  context.console.print("wrote " + options.out + "/report.html, ledger.json and ledger.csv\n");
   return {};
 }
 

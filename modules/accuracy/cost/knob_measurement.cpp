@@ -10,6 +10,7 @@
 #include "engine/core/hash.h"
 #include "engine/core/text/formatted.h"
 #include "engine/math/srgb.h"
+#include "modules/accuracy/cost/error_pictures.h"
 #include "modules/accuracy/cost/knob_overrides.h"
 
 namespace gloam {
@@ -20,7 +21,7 @@ namespace {
 constexpr std::int32_t kSettlingFrames = 3;
 
 /// Version of metrics and protocol: rows stored under another version are measured again.
-constexpr int kMethod = 5;
+constexpr int kMethod = 6;
 
 std::string exact_text(double value) { return formatted("%.17g", value); }
 
@@ -53,9 +54,11 @@ std::vector<LinearPicture> light_of(const std::vector<FramePictures>& frames, bo
 
 }  // namespace
 
-KnobMeasurement::KnobMeasurement(const CostRequest& request, CostSubject& subject, const Knob& knob)
+KnobMeasurement::KnobMeasurement(const CostRequest& request, CostSubject& subject, CostProgress& progress,
+                                 const Knob& knob)
     : request_(request),
       subject_(subject),
+      progress_(progress),
       knob_(knob),
       users_(subject.knobs().text(knob)),
       default_(value_text(knob, knob.default_number)),
@@ -149,14 +152,29 @@ Status KnobMeasurement::judge(const std::string& value, LedgerRow& row) {
     const auto drawn = draw(value);
     if (!drawn) return drawn.error();
     row.picture = hash_of(drawn->frame);
-    return {};
+    return progress_.picture(row.picture, drawn->frame.picture);
   }
   const bool serves_all = !reference_ || !reference_->follows_value;
   if (serves_all && !common_reference_) GLOAM_TRY(draw_common_reference());
   const auto drawn = draw(value);
   if (!drawn) return drawn.error();
-  row.picture = hash_of(drawn->frame);
   return reference_ ? judge_by_module(value, *drawn, row) : judge_by_exact(*drawn, row);
+}
+
+Status KnobMeasurement::compare(const NoisyReference& reference, const FramePictures& frame, LedgerRow& row) {
+  std::vector<float> flip;
+  GLOAM_TRY(reference.judge.judge(frame, row, &flip));
+  row.picture = hash_of(frame);
+  GLOAM_TRY(progress_.picture(row.picture, frame.picture));
+  const Picture& right = reference.judge.reference().picture;
+  if (right.width == 0) return {};
+  row.reference_picture = reference.hash;
+  GLOAM_TRY(progress_.picture(row.reference_picture, right));
+  if (row.heat_map().empty()) return {};
+  row.worst = worst_areas(flip, right.width, right.height);
+  GLOAM_TRY(progress_.picture(row.heat_map(), heat_map(flip, right.width, right.height)));
+  if (row.worst.empty()) return {};
+  return progress_.picture(row.worst_areas(), side_by_side(frame.picture, right, row.worst));
 }
 
 Status KnobMeasurement::draw_common_reference() {
@@ -164,7 +182,8 @@ Status KnobMeasurement::draw_common_reference() {
   if (!drawn) return drawn.error();
   if (!reference_) {
     exact_sequence_ = std::move(drawn->sequence);
-    common_reference_.emplace(NoisyReference{PictureJudge(std::move(drawn->frame))});
+    const std::string hash = hash_of(drawn->frame);
+    common_reference_.emplace(NoisyReference{PictureJudge(std::move(drawn->frame)), hash});
     return {};
   }
   auto reference = module_reference(default_, drawn->frame);
@@ -181,7 +200,8 @@ Status KnobMeasurement::draw_standard() {
     auto right = draw();
     if (!right) return right.error();
     exact_sequence_ = std::move(right->sequence);
-    common_reference_.emplace(NoisyReference{PictureJudge(std::move(right->frame))});
+    const std::string hash = hash_of(right->frame);
+    common_reference_.emplace(NoisyReference{PictureJudge(std::move(right->frame)), hash});
   }
   KnobOverrides overrides(subject_.knobs());
   GLOAM_TRY(overrides.set(measure_->judged_with));
@@ -199,18 +219,17 @@ Status KnobMeasurement::judge_by_measure(const std::string& value, LedgerRow& ro
   GLOAM_TRY(overrides.set(measure_->judged_with));
   const auto drawn = draw();
   if (!drawn) return drawn.error();
-  row.picture = hash_of(drawn->frame);
   const FrameCounters counters = subject_.counters();
   if (const auto error = measure_->error(counters, standard_)) row.counted = CountedError{*error, measure_->unit};
   row.wrong = measure_->fault(counters);
-  GLOAM_TRY(common_reference_->judge.judge(drawn->frame, row));
+  GLOAM_TRY(compare(*common_reference_, drawn->frame, row));
   return request_.sequence < 2 ? Status() : judge_sequence(exact_sequence_, drawn->sequence, row);
 }
 
 Status KnobMeasurement::judge_by_exact(const Drawn& drawn, LedgerRow& row) {
   row.reference_kind = "brute force";
   row.reference_name = knob_.name + "=" + knob_.exact;
-  GLOAM_TRY(common_reference_->judge.judge(drawn.frame, row));
+  GLOAM_TRY(compare(*common_reference_, drawn.frame, row));
   return request_.sequence < 2 ? Status() : judge_sequence(exact_sequence_, drawn.sequence, row);
 }
 
@@ -224,7 +243,7 @@ Status KnobMeasurement::judge_by_module(const std::string& value, const Drawn& d
     own.emplace(std::move(reference).value());
   }
   const NoisyReference& reference = own ? *own : *common_reference_;
-  GLOAM_TRY(reference.judge.judge(drawn.frame, row));
+  GLOAM_TRY(compare(reference, drawn.frame, row));
   row.reference_noise = reference.noise;
   const double error = row.flip ? row.flip->mean : *row.rmse;
   row.below_noise = reference.noise > 0.0 && error < reference.noise;
@@ -270,7 +289,8 @@ Result<KnobMeasurement::NoisyReference> KnobMeasurement::module_reference(const 
     GLOAM_TRY(cache_.save(identity, *reference));
   }
   const double noise = reference->noise;
-  return NoisyReference{PictureJudge(std::move(reference->pictures)), noise};
+  const std::string hash = hash_of(reference->pictures);
+  return NoisyReference{PictureJudge(std::move(reference->pictures)), hash, noise};
 }
 
 Result<JudgedReference> KnobMeasurement::compute(const FramePictures& frame) {

@@ -19,7 +19,8 @@ namespace gloam {
 /// knob.
 class KnobMeasurement {
  public:
-  KnobMeasurement(const CostRequest& request, CostSubject& subject, const Knob& knob);
+  /// All must outlive it. progress: gets the pictures.
+  KnobMeasurement(const CostRequest& request, CostSubject& subject, CostProgress& progress, const Knob& knob);
   ~KnobMeasurement();
   KnobMeasurement(const KnobMeasurement&) = delete;
   KnobMeasurement& operator=(const KnobMeasurement&) = delete;
@@ -40,6 +41,7 @@ class KnobMeasurement {
   /// A reference and its noise (LedgerRow::reference_noise).
   struct NoisyReference {
     PictureJudge judge;
+    std::string hash;  ///< of its picture and light
     double noise = 0.0;
   };
 
@@ -51,6 +53,8 @@ class KnobMeasurement {
   [[nodiscard]] Result<Drawn> draw();
   [[nodiscard]] Result<Drawn> draw(const std::string& value);
   [[nodiscard]] Status judge(const std::string& value, LedgerRow& row);
+  /// Sets the row's errors and pictures by a reference, and gives the pictures to progress_.
+  [[nodiscard]] Status compare(const NoisyReference& reference, const FramePictures& frame, LedgerRow& row);
   /// Draws the reference that all values are compared with.
   [[nodiscard]] Status draw_common_reference();
   /// For a measure: draws the right picture, and reads the counters of the default value.
@@ -68,6 +72,7 @@ class KnobMeasurement {
 
   const CostRequest& request_;
   CostSubject& subject_;
+  CostProgress& progress_;
   const Knob& knob_;
   std::string users_;  ///< the knob's value before measuring
   std::string default_;

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <utility>
 
 #include "engine/core/assert.h"
@@ -20,7 +21,7 @@ class LedgerRun {
   }
 
   [[nodiscard]] Status measure(const std::string& name) {
-    KnobMeasurement measurement(request_, subject_, knob(name));
+    KnobMeasurement measurement(request_, subject_, progress_, knob(name));
     KnobRows& rows = knobs_.emplace_back(KnobRows{knob(name).module, measurement.default_is_users(), {}});
     bool timed = false;
     for (const std::string& value : ledger_values(knob(name))) {
@@ -55,6 +56,7 @@ class LedgerRun {
                            KnobRows& rows) {
     const std::string identity = measurement.identity(value);
     std::optional<MeasuredRow> row = store_.load(identity);
+    if (row && !has_pictures(row->row)) row.reset();
     const bool resumed = row.has_value();
     if (!resumed) {
       progress_.measuring(name, value, done_, total_);
@@ -67,6 +69,11 @@ class LedgerRun {
     ++done_;
     rows.rows.push_back(std::move(*row));
     return {};
+  }
+
+  [[nodiscard]] bool has_pictures(const LedgerRow& row) {
+    return std::ranges::all_of(row_pictures(row),
+                               [this](const std::string& name) { return progress_.has_picture(name); });
   }
 
   const CostRequest& request_;

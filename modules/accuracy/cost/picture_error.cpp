@@ -16,10 +16,12 @@ PictureJudge::PictureJudge(FramePictures reference) : reference_(std::move(refer
   if (reference_.picture.width > 0) features_ = flip_features(pixels_of(reference_.picture));
 }
 
-Status PictureJudge::judge(const FramePictures& frame, LedgerRow& row) const {
+Status PictureJudge::judge(const FramePictures& frame, LedgerRow& row, std::vector<float>* flip_map) const {
   if (features_) {
     const EncodedPixels test = pixels_of(frame.picture);
-    const ErrorStatistics flip = statistics_of(flip_error_map(*features_, flip_features(test)));
+    std::vector<float> map = flip_error_map(*features_, flip_features(test));
+    const ErrorStatistics flip = statistics_of(map);
+    if (flip_map != nullptr) *flip_map = std::move(map);
     row.flip = {.mean = flip.mean, .p99 = flip.p99};
     row.psnr_db = psnr_db(pixels_of(reference_.picture), test);
   }

@@ -28,8 +28,10 @@ class PictureJudge {
   explicit PictureJudge(FramePictures reference);
 
   /// Sets flip and psnr_db of the row if the reference has a picture, rmse and rmse_p99 if it has linear light.
-  /// `frame`: linear light and picture, of the reference's size.
-  [[nodiscard]] Status judge(const FramePictures& frame, LedgerRow& row) const;
+  /// `frame`: linear light and picture, of the reference's size. flip_map: gets the FLIP of each pixel if not null and
+  /// the reference has a picture.
+  [[nodiscard]] Status judge(const FramePictures& frame, LedgerRow& row, std::vector<float>* flip_map = nullptr) const;
+  [[nodiscard]] const FramePictures& reference() const { return reference_; }
 
  private:
   FramePictures reference_;

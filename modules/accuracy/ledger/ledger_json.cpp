@@ -55,6 +55,9 @@ Json json_of(const LedgerRow& row) {
   json["pairs"] = row.pairs;
   json["gpu_bytes"] = row.gpu_bytes;
   json["picture"] = row.picture;
+  json["reference_picture"] = row.reference_picture;
+  json["worst"] = Json::array();
+  for (const PictureArea& area : row.worst) json["worst"].push_back({area.x, area.y, area.width, area.height});
   json["no_effect"] = row.no_effect;
   json["front"] = row.on_front;
   return json;
@@ -87,6 +90,10 @@ LedgerRow row_of(const Json& json) {
   row.pairs = json.at("pairs").get<std::uint32_t>();
   row.gpu_bytes = json.at("gpu_bytes").get<std::uint64_t>();
   row.picture = json.at("picture").get<std::string>();
+  row.reference_picture = json.value("reference_picture", "");  // absent in ledgers of earlier versions, as is `worst`
+  for (const Json& area : json.value("worst", Json::array()))
+    row.worst.push_back({area.at(0).get<std::uint32_t>(), area.at(1).get<std::uint32_t>(),
+                         area.at(2).get<std::uint32_t>(), area.at(3).get<std::uint32_t>()});
   row.no_effect = json.at("no_effect").get<bool>();
   row.on_front = json.at("front").get<bool>();
   return row;

@@ -65,4 +65,14 @@ Status write_png(const std::string& path, std::uint32_t width, std::uint32_t hei
   return write_file(path, file);
 }
 
+Result<std::string> jpeg_bytes(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba,
+                               int quality) {
+  GLOAM_ASSERT(rgba.size() == std::size_t{width} * height * 4 && !rgba.empty(), "a picture has four bytes a pixel");
+  std::string file;
+  if (stbi_write_jpg_to_func(append_bytes, &file, static_cast<int>(width), static_cast<int>(height), 4, rgba.data(),
+                             quality) == 0)
+    return Error{ErrorKind::failed, "a picture cannot be written as JPEG"};
+  return file;
+}
+
 }  // namespace gloam

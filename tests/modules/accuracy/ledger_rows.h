@@ -39,6 +39,8 @@ inline LedgerRow full_row(std::uint32_t seed = 1) {
   row.sure_high = number(random) * 4.0;
   row.pairs = seed + 7;
   row.picture = "a hash, " + std::to_string(seed);
+  row.reference_picture = "another, " + std::to_string(seed);
+  for (std::uint32_t area = 0; area < seed % 4; ++area) row.worst.push_back({area, 2 * area, 7, 5 + seed});
   row.no_effect = seed % 3 == 1;
   row.gpu_bytes = 0x1234567890abcull + seed;
   row.on_front = seed % 2 == 1;

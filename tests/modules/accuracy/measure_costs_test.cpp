@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <vector>
 
 #include "engine/math/srgb.h"
@@ -100,7 +101,16 @@ class Progress final : public CostProgress {
   }
   void finished(const LedgerRow&, bool resumed) override { ++(resumed ? found : measured); }
 
+  Status picture(const std::string& name, const Picture& picture) override {
+    const auto [known, added] = pictures.emplace(name, picture.rgba);
+    EXPECT_TRUE(added || known->second == picture.rgba) << "one name for two pictures: " << name;
+    return {};
+  }
+  bool has_picture(const std::string& name) override { return name != lost; }
+
   std::vector<std::string> lines;
+  std::map<std::string, std::vector<std::uint8_t>> pictures;
+  std::string lost;  ///< name of a picture that an earlier run left and that is gone
   int measured = 0;
   int found = 0;
 };
@@ -125,6 +135,27 @@ class MeasureCosts : public ::testing::Test {
   FakeSubject subject_;
   Progress progress_;
 };
+
+TEST_F(MeasureCosts, gives_every_picture_of_every_row) {
+  const Ledger ledger = measure();
+  for (const LedgerRow& row : ledger.rows) {
+    EXPECT_EQ(row_pictures(row).size(), row.value == "64" ? 2u : 4u) << row.value << ": without error, no heat map";
+    for (const std::string& name : row_pictures(row)) EXPECT_TRUE(progress_.pictures.contains(name)) << name;
+    EXPECT_EQ(row.picture == row.reference_picture, row.value == "64") << "the exact value is its own reference";
+    const std::vector<PictureArea> whole = {{0, 0, kSide, kSide}};
+    EXPECT_EQ(row.worst, row.value == "64" ? std::vector<PictureArea>() : whole);
+  }
+}
+
+TEST_F(MeasureCosts, measures_a_row_again_if_its_picture_is_lost) {
+  const Ledger ledger = measure();
+  progress_ = {};
+  progress_.lost = ledger.rows[1].picture;
+  ASSERT_TRUE(measure_costs(request_, subject_, progress_).ok());
+  EXPECT_EQ(progress_.measured, 1);
+  EXPECT_EQ(progress_.found, 3);
+  EXPECT_TRUE(progress_.pictures.contains(progress_.lost));
+}
 
 TEST_F(MeasureCosts, holds_every_value_against_the_most_exact_one) {
   const Ledger ledger = measure();

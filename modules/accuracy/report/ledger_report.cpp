@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/core/text/formatted.h"
+#include "modules/accuracy/report/html_text.h"
+#include "modules/accuracy/report/report_data.h"
+#include "modules/accuracy/report/sections.h"
+
+namespace gloam {
+namespace {
+
+std::string page_head(const ReportData& data) {
+  // The policy forbids every request; pictures are data.
+  std::string html =
+      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src "
+      "'unsafe-inline'; "
+      "script-src 'unsafe-inline'\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<meta name=\"color-scheme\" content=\"light dark\">\n<link rel=\"icon\" href=\"data:,\">\n";
+  html += "<title>Cost of " + escaped(data.ledger.header.scene) + "</title>\n<style>\n";
+  html += kPageStyle;
+  return html + "</style>\n</head>\n<body>\n";
+}
+
+std::string page_header(const ReportData& data) {
+  const LedgerHeader& header = data.ledger.header;
+  std::string html = "<a class=\"skip\" href=\"#main\">Skip to the content</a>\n<header>\n<h1>What <code>" +
+                     escaped(header.scene) + "</code> costs</h1>\n<p>";
+  if (!data.knobs.empty() && data.knobs.front().standard != nullptr)
+    html += "A frame takes " + ms_text(data.knobs.front().standard->ms.median_ms) + " with the defaults. ";
+  html += escaped(header.device) + formatted(", %u × %u pixels", header.width, header.height);
+  if (header.quick) html += "; measured quickly, so errors and times are noisier";
+  html +=
+      ".</p>\n<nav aria-label=\"Sections\"><a href=\"#turn-down\">What to turn down</a> <a href=\"#effects\">Each "
+      "effect</a> <a href=\"#look\">Look</a> <a href=\"#everything\">Everything</a> <a "
+      "href=\"#conditions\">Conditions</a></nav>\n";
+  return html + "</header>\n";
+}
+
+/// The pictures as JSON, each once; the script sets them as sources of images.
+std::string page_pictures(const ReportData& data) {
+  std::string html = "<script type=\"application/json\" id=\"pictures\">{";
+  for (const auto& [name, uri] : data.embedded) {
+    // Names are hashes with hyphens; escaping keeps any other text from ending the element or the string.
+    html += (&name == &data.embedded.front().first ? "\n\"" : ",\n\"") + escaped(name) + "\":\"" + uri + "\"";
+  }
+  return html + "}</script>\n";
+}
+
+}  // namespace
+
+std::string ledger_report(const Ledger& ledger, const ReportRequest& request) {
+  const ReportData data = report_data(ledger, request);
+  std::string html = page_head(data) + page_header(data) + "<main id=\"main\">\n";
+  html += savings_section(data);
+  html += effects_section(data);
+  html += look_section(data);
+  html += table_section(data);
+  html += conditions_section(data);
+  html += "</main>\n" + page_pictures(data) + "<script>\n";
+  html += kPageScript;
+  return html + "</script>\n</body>\n</html>\n";
+}
+
+}  // namespace gloam

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "modules/accuracy/report/report_data.h"
+
+// Sections of the report, as HTML.
+
+namespace gloam {
+
+/// Values that give back time at a small error.
+[[nodiscard]] std::string savings_section(const ReportData& data);
+/// A plot and a table for each knob; knobs without effect and knobs that were not measured.
+[[nodiscard]] std::string effects_section(const ReportData& data);
+/// Two pictures under a slider, the error and its worst areas.
+[[nodiscard]] std::string look_section(const ReportData& data);
+/// All rows.
+[[nodiscard]] std::string table_section(const ReportData& data);
+/// Device, clock, size, noise and command line.
+[[nodiscard]] std::string conditions_section(const ReportData& data);
+
+/// Error against time of a knob's values: an SVG with logarithmic axes. Empty if no row has an error.
+[[nodiscard]] std::string error_plot(const KnobResults& knob);
+
+/// A link that shows two pictures in the look section, opened by the row's picture. `before`: name of the other.
+[[nodiscard]] std::string look_link(const LedgerRow& row, const LedgerRow* before, std::string_view content,
+                                    std::string_view attributes = {});
+/// An image that the page's script fills from the embedded pictures, in a link to the full picture; a text if there is
+/// no picture.
+[[nodiscard]] std::string picture_html(const ReportData& data, const std::string& name, std::string_view description);
+/// "knob=value"
+[[nodiscard]] std::string setting_of(const LedgerRow& row);
+
+extern const std::string_view kPageStyle;   ///< CSS
+extern const std::string_view kPageScript;  ///< JavaScript
+
+}  // namespace gloam

@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "modules/accuracy/module.h"
+#include "modules/accuracy/report/html_text.h"
+#include "modules/accuracy/report/report_data.h"
+#include "tests/modules/accuracy/ledger_rows.h"
+
+namespace gloam {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::SizeIs;
+
+LedgerRow value_row(const std::string& knob, const std::string& value, double ratio, double flip) {
+  LedgerRow row = {.knob = knob, .value = value, .is_default = ratio == 1.0, .reference_kind = "traced"};
+  row.reference_name = "visibility";
+  row.flip = ErrorPair{flip, 2.0 * flip};
+  row.ratio = ratio;
+  row.ratio_low = row.is_default ? 1.0 : 0.98 * ratio;
+  row.ratio_high = row.is_default ? 1.0 : 1.02 * ratio;
+  row.ms.median_ms = 20.0 * ratio;
+  row.picture = knob + value;
+  return row;
+}
+
+Ledger ledger_of(std::vector<LedgerRow> rows) {
+  Ledger ledger = test::full_ledger();
+  ledger.skipped.clear();
+  ledger.rows = std::move(rows);
+  return ledger;
+}
+
+std::size_t count_of(std::string_view text, std::string_view part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string_view::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+TEST(HtmlText, escapes_everything_that_ends_text_or_attributes) {
+  EXPECT_EQ(escaped("a<b>&\"c'\n"), "a&lt;b&gt;&amp;&quot;c&#39;\n");
+  EXPECT_EQ(escaped(std::string_view("\0\x1b", 2)), "\xEF\xBF\xBD\xEF\xBF\xBD");
+  EXPECT_EQ(escaped("m² – ü"), "m² – ü");
+}
+
+TEST(HtmlText, base64_is_that_of_the_standard) {
+  // Section 10 of RFC 4648.
+  const std::pair<std::string_view, std::string_view> vectors[] = {
+      {"", ""}, {"f", "Zg=="}, {"fo", "Zm8="}, {"foo", "Zm9v"}, {"foob", "Zm9vYg=="}, {"fooba", "Zm9vYmE="}};
+  for (const auto& [bytes, text] : vectors) EXPECT_EQ(base64(bytes), text);
+  EXPECT_EQ(base64("\xff\xff\xfe"), "///+");
+}
+
+TEST(HtmlText, numbers_are_short) {
+  EXPECT_EQ(number_text(0.0), "0");
+  EXPECT_EQ(number_text(0.01234), "0.0123");
+  EXPECT_EQ(number_text(12.34), "12.3");
+  EXPECT_EQ(number_text(123.4), "123");
+  EXPECT_EQ(number_text(4.2e-6), "4.2e-06");
+  EXPECT_EQ(ratio_text(value_row("a.b", "c", 0.71, 0.0)), "0.71 (0.70–0.72)");
+}
+
+TEST(LedgerReport, is_whole_for_an_empty_ledger) {
+  const std::string html = ledger_report(ledger_of({}), {});
+  EXPECT_THAT(html, HasSubstr("No measured value gives back time"));
+  EXPECT_THAT(html, HasSubstr("There are no pictures"));
+  EXPECT_TRUE(html.ends_with("</html>\n"));
+}
+
+TEST(LedgerReport, escapes_texts_of_scenes_knobs_and_users) {
+  Ledger ledger = ledger_of({value_row("a.<b>", "<script>x</script>", 1.0, 0.01)});
+  ledger.header.scene = "<img onerror=\"x\">&'";
+  ledger.header.device = "</style>";
+  ledger.header.camera = "<i>";
+  ledger.rows[0].wrong = "<u>";
+  ledger.rows[0].reference_name = "<em>";
+  ledger.skipped = {{"<s>", "<b>reason"}};
+  const std::string html = ledger_report(ledger, {.command = "<kbd>", .meanings = {{"a.<b>", "<q>"}}});
+  for (const char* text :
+       {"<img onerror", "<script>x", "</style>,", "<i>", "<u>", "<em>", "<s>", "<b>", "<kbd>", "<q>"})
+    EXPECT_THAT(html, Not(HasSubstr(text)));
+  EXPECT_EQ(count_of(html, "</style>"), 1u);
+}
+
+TEST(LedgerReport, first_screen_has_the_greatest_savings_of_each_bound_once) {
+  const Ledger ledger = ledger_of({value_row("a.x", "default", 1.0, 0.001), value_row("a.x", "low", 0.8, 0.005),
+                                   value_row("a.x", "lower", 0.7, 0.02), value_row("a.x", "lowest", 0.5, 0.2),
+                                   value_row("b.y", "default", 1.0, 0.02), value_row("b.y", "cheap", 0.9, 0.02),
+                                   value_row("c.z", "default", 1.0, 0.0), value_row("c.z", "unsure", 0.99, 0.0)});
+  const Savings savings = report_data(ledger, {}).savings;
+  ASSERT_THAT(savings.no_less_right, SizeIs(1));
+  EXPECT_EQ(savings.no_less_right[0].row->value, "cheap");
+  ASSERT_THAT(savings.below_001, SizeIs(1));
+  EXPECT_EQ(savings.below_001[0].row->value, "low");
+  ASSERT_THAT(savings.below_003, SizeIs(1));
+  EXPECT_EQ(savings.below_003[0].row->value, "lower");
+}
+
+TEST(LedgerReport, offers_no_wrong_value) {
+  std::vector<LedgerRow> rows = {value_row("a.x", "default", 1.0, 0.0), value_row("a.x", "fast", 0.3, 0.0)};
+  rows[1].wrong = "a light is missing";
+  const std::string html = ledger_report(ledger_of(rows), {});
+  EXPECT_THAT(html, HasSubstr("No measured value gives back time"));
+  EXPECT_THAT(html, HasSubstr("wrong: a light is missing"));
+}
+
+TEST(LedgerReport, noise_counts_as_error) {
+  std::vector<LedgerRow> rows = {value_row("a.x", "default", 1.0, 0.001), value_row("a.x", "fast", 0.3, 0.002)};
+  for (LedgerRow& row : rows) row.reference_noise = 0.04;
+  rows[0].reference_noise = 0.0;
+  const Savings savings = report_data(ledger_of(rows), {}).savings;
+  EXPECT_THAT(savings.below_001, IsEmpty());
+  EXPECT_THAT(savings.below_003, IsEmpty());
+}
+
+TEST(LedgerReport, knobs_without_reference_have_a_table_and_no_plot) {
+  std::vector<LedgerRow> rows = {value_row("a.x", "warm", 1.0, 0.0), value_row("a.x", "cold", 0.5, 0.0)};
+  for (LedgerRow& row : rows) {
+    row.flip.reset();
+    row.reference_kind.clear();
+  }
+  const std::string html = ledger_report(ledger_of(rows), {});
+  EXPECT_THAT(html, HasSubstr("No reference: no value is more right than another."));
+  EXPECT_EQ(count_of(html, "<svg"), 0u);
+  EXPECT_THAT(html, HasSubstr("0.50 (0.49–0.51)"));
+}
+
+TEST(LedgerReport, folds_knobs_without_effect_and_names_skipped_ones) {
+  std::vector<LedgerRow> rows = {value_row("a.x", "on", 1.0, 0.0), value_row("a.x", "off", 0.99, 0.0)};
+  for (LedgerRow& row : rows) row.no_effect = true;
+  Ledger ledger = ledger_of(rows);
+  ledger.skipped = {{"grass.lod", "no patch"}};
+  const std::string html = ledger_report(ledger, {});
+  EXPECT_THAT(html, HasSubstr("Knobs without effect in this scene: 1"));
+  EXPECT_THAT(html, HasSubstr("<code>grass.lod</code>: no patch"));
+  EXPECT_EQ(count_of(html, "<svg"), 0u);
+}
+
+TEST(LedgerReport, embeds_every_picture_once_and_stays_below_its_size) {
+  std::vector<LedgerRow> rows;
+  for (int i = 0; i < 40; ++i) rows.push_back(value_row("a.x", std::to_string(i), i == 0 ? 1.0 : 0.9, 0.01));
+  rows[1].picture = rows[0].picture;
+  const ReportRequest request = {.picture = [](const std::string&) { return "\x89PNG" + std::string(90'000, 'x'); }};
+  const Ledger ledger = ledger_of(rows);
+  const std::string html = ledger_report(ledger, request);
+  EXPECT_LT(html.size(), 3'000'000u);
+  EXPECT_EQ(count_of(html, "\n\"a.x0\":\"data:image/png;base64,"), 1u);
+  EXPECT_THAT(html, HasSubstr("data-picture=\"a.x39\"")) << "a picture without room is linked";
+  EXPECT_THAT(html, Not(HasSubstr("\"a.x39\":")));
+  EXPECT_EQ(html, ledger_report(ledger, request));
+}
+
+TEST(LedgerReport, shows_no_link_to_an_absent_picture) {
+  const Ledger ledger = ledger_of({value_row("a.x", "on", 1.0, 0.01), value_row("a.x", "off", 0.5, 0.01)});
+  const std::string html = ledger_report(ledger, {.picture = [](const std::string& name) {
+                                           return name == "a.xon" ? std::optional<std::string>("x") : std::nullopt;
+                                         }});
+  EXPECT_THAT(html, HasSubstr("pictures/a.xon.png"));
+  EXPECT_THAT(html, Not(HasSubstr("pictures/a.xoff.png")));
+}
+
+TEST(LedgerReport, plots_whatever_a_ledger_holds) {
+  const std::string html = ledger_report(test::full_ledger(), {});
+  EXPECT_THAT(html, Not(HasSubstr("nan")));
+  EXPECT_THAT(html, Not(HasSubstr("=\"inf")));
+}
+
+}  // namespace
+}  // namespace gloam

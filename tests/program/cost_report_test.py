@@ -1,0 +1,134 @@
+# SPDX-FileCopyrightText: The gloam authors
+# SPDX-License-Identifier: MIT
+"""Tests the page report.html of `cost`. Needs a Vulkan device; the tests in a browser need Chromium."""
+import re
+import shutil
+import subprocess
+from html.parser import HTMLParser
+
+from program_case import ProgramCase, main
+
+QUICK = ("cost", "builtin:shadows", "--quick", "--size", "192x108", "--knobs", "shadows.filter,lights.culling")
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
+
+
+class Page(HTMLParser):
+    """Links, ids, and the elements that are open at the end."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.links, self.ids, self.sources, self.labels, self.fields, self.open = [], [], [], [], [], []
+        self.feed(text)
+
+    def handle_starttag(self, tag, attrs):
+        attributes = dict(attrs)
+        if "id" in attributes:
+            self.ids.append(attributes["id"])
+        if "href" in attributes:
+            self.links.append(attributes["href"])
+        if "src" in attributes:
+            self.sources.append(attributes["src"])
+        if tag == "label":
+            self.labels.append(attributes["for"])
+        if tag in ("input", "select"):
+            self.fields.append(attributes["id"])
+        if tag not in ("meta", "link", "img", "input", "line", "path", "rect", "circle", "br"):
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        if tag in ("line", "path", "rect", "circle"):
+            return
+        while self.open and tag in ("option", "optgroup") and self.open[-1] != tag:
+            self.open.pop()
+        assert self.open and self.open[-1] == tag, f"</{tag}> closes <{self.open[-1:]}>"
+        self.open.pop()
+
+
+class CostReport(ProgramCase):
+    def setUp(self):
+        super().setUp()
+        self.require_device()
+
+    def measure(self, *more):
+        self.expect(0, *QUICK, "--out", "ledger", *more)
+        return (self.folder / "ledger/report.html").read_text(encoding="utf-8")
+
+    def test_is_one_file_whose_links_exist(self):
+        text = self.measure()
+        self.assertLess(len(text.encode()), 3_000_000)
+        self.assertNotRegex(text, r"https?:")
+        page = Page(text)
+        self.assertEqual(page.open, [])
+        self.assertEqual(len(page.ids), len(set(page.ids)), "ids are unique")
+        self.assertEqual(sorted(page.labels), sorted(page.fields), "every field has a label")
+        self.assertEqual(page.sources, [], "pictures are in the page")
+        files = [link for link in page.links if not link.startswith(("#", "data:"))]
+        self.assertTrue(any(link.startswith("pictures/") for link in files))
+        for link in files:
+            self.assertTrue((self.folder / "ledger" / link).is_file(), link)
+        for link in page.links:
+            if link.startswith("#"):
+                self.assertIn(link[1:], page.ids)
+        ledger = self.read_json("ledger/ledger.json")
+        for row in ledger["rows"]:
+            for name in (row["picture"], row["reference_picture"]):
+                self.assertTrue((self.folder / f"ledger/pictures/{name}.png").is_file(), row)
+                self.assertIn(f'\n"{name}":"data:image/jpeg;base64,', text)
+            if row["error"]["flip"]["mean"] > 0.0:
+                self.assertTrue(row["worst"], row)
+        names = re.findall(r'^"([^"]+)":"data:', text, re.MULTILINE)
+        self.assertEqual(len(names), len(set(names)), "every picture is embedded once")
+        # The command line at the end measures the same rows.
+        command = re.search(r'<code id="command">gloam (.*?)</code>', text).group(1).split(" ")
+        self.assertIn("measured before", self.expect(0, *command).stdout)
+        self.assertEqual((self.folder / "ledger/report.html").read_text(encoding="utf-8"), text)
+
+    def test_lost_pictures_are_made_again(self):
+        self.measure()
+        row = self.read_json("ledger/ledger.json")["rows"][0]
+        lost = self.folder / f"ledger/pictures/{row['picture']}.png"
+        before = lost.read_bytes()
+        lost.unlink()
+        self.measure()
+        self.assertEqual(lost.read_bytes(), before)
+
+    def browse(self, *arguments):
+        """Opens the report in a browser, and checks that it logs nothing."""
+        run = subprocess.run([CHROMIUM, "--headless", "--no-sandbox", "--disable-gpu", "--enable-logging=stderr",
+                              f"--user-data-dir={self.folder}/browser", "--virtual-time-budget=5000", *arguments,
+                              f"file://{self.folder}/ledger/report.html"], capture_output=True, text=True, timeout=120, check=True)
+        self.assertNotIn("CONSOLE", run.stderr)
+        return run.stdout
+
+    def test_runs_in_a_browser_without_messages(self):
+        if CHROMIUM is None:
+            self.skipTest("there is no Chromium")
+        self.measure()
+        dom = self.browse("--dump-dom")
+        rows = self.read_json("ledger/ledger.json")["rows"]
+        self.assertIn(f"{len(rows)} of {len(rows)} rows", dom, "the script counted the rows")
+        self.assertRegex(dom, r'<img id="left-picture"[^>]* src="data:image/jpeg')
+        self.assertRegex(dom, r'<img id="right-picture"[^>]* src="data:image/jpeg')
+        self.assertNotIn("not embedded", re.sub(r"<script.*?</script>", "", dom, flags=re.DOTALL))
+        for theme in (0, 1):
+            picture = self.folder / f"theme{theme}.png"
+            self.browse(f"--blink-settings=preferredColorScheme={theme}", "--window-size=1200,1600", f"--screenshot={picture}")
+            self.assertGreater(picture.stat().st_size, 10_000)
+
+    def test_sorts_by_its_buttons(self):
+        if CHROMIUM is None:
+            self.skipTest("there is no Chromium")
+        text = self.measure()
+        click = "<script>document.querySelectorAll('#rows thead button')[3].click()</script></body>"
+        (self.folder / "ledger/report.html").write_text(text.replace("</body>", click), encoding="utf-8")
+        dom = self.browse("--dump-dom")
+        table = re.search(r'<table id="rows">.*?</table>', dom, re.DOTALL).group(0)
+        self.assertEqual(re.findall(r'aria-sort="(\w+)"', table).index("ascending"), 3)
+        cells = [re.findall(r"<td.*?</td>", row) for row in re.findall(r"<tr data-.*?</tr>", table, re.DOTALL)]
+        ratios = [float(re.search(r'data-sort="([^"]+)"', row[3]).group(1)) for row in cells]
+        self.assertEqual(ratios, sorted(ratios))
+        self.assertEqual(len(ratios), len(self.read_json("ledger/ledger.json")["rows"]))
+
+
+if __name__ == "__main__":
+    main()
