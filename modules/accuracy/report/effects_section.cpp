@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <vector>
 
 #include "modules/accuracy/report/html_text.h"
 #include "modules/accuracy/report/sections.h"
@@ -109,16 +110,16 @@ std::string effects_section(const ReportData& data) {
       "on the front, joined by a line: no other value is as cheap and as right; a cross is wrong. Whiskers are 95 % "
       "intervals of the time. Dashed lines are the bounds 0.01, 0.03 and 0.1. A point shows its picture beside the "
       "default’s.</p>\n";
-  std::string_view module;
-  bool any = false;
-  for (const KnobResults& knob : data.knobs) {
-    if (knob.no_effect) continue;
-    if (module != module_of(knob.name)) html += module_heading(data, module_of(knob.name));
-    module = module_of(knob.name);
-    html += knob_article(knob);
-    any = true;
+  std::vector<std::string_view> modules;  // in the order of their first knobs
+  for (const KnobResults& knob : data.knobs)
+    if (!knob.no_effect && std::ranges::find(modules, module_of(knob.name)) == modules.end())
+      modules.push_back(module_of(knob.name));
+  for (const std::string_view module : modules) {
+    html += module_heading(data, module);
+    for (const KnobResults& knob : data.knobs)
+      if (!knob.no_effect && module_of(knob.name) == module) html += knob_article(knob);
   }
-  if (!any) html += "<p class=\"empty\">No measured knob changes anything in this scene.</p>\n";
+  if (modules.empty()) html += "<p class=\"empty\">No measured knob changes anything in this scene.</p>\n";
   return html + folded_knobs(data) + skipped_knobs(data.ledger) + "</section>\n";
 }
 

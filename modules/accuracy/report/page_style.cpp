@@ -69,7 +69,7 @@ summary { cursor: pointer; font-weight: 600; }
 select, input, button { font: inherit; color: inherit; background: var(--page); border: 1px solid var(--soft); border-radius: 4px; padding: .2rem .4rem; }
 select { max-width: 100%; }
 .pickers { display: flex; flex-wrap: wrap; gap: .25rem 2rem; }
-.compare { position: relative; overflow: hidden; max-width: 60rem; background: #000; touch-action: none; cursor: ew-resize; }
+.compare { position: relative; overflow: hidden; max-width: 52rem; background: #000; touch-action: none; cursor: ew-resize; }
 .compare img { width: 100%; }
 #right-picture { position: absolute; inset: 0; height: 100%; clip-path: inset(0 0 0 var(--border, 50%)); }
 .bar { position: absolute; top: 0; bottom: 0; left: var(--border, 50%); width: 2px; margin-left: -1px; background: #fff;
@@ -77,7 +77,7 @@ select { max-width: 100%; }
 .corner { position: absolute; top: .5rem; padding: 0 .5rem; background: rgba(0, 0, 0, .7); color: #fff; font-size: .88rem; z-index: 1; }
 .corner.left { left: .5rem; }
 .corner.right { right: .5rem; }
-#slider { width: min(60rem, 100%); display: block; padding: 0; }
+#slider { width: 100%; display: block; padding: 0; }
 .errors { display: flex; flex-wrap: wrap; gap: 1.5rem; margin-top: 1rem; align-items: flex-start; }
 #heat-figure { flex: 1 1 26rem; max-width: 40rem; }
 .heat { position: relative; }
@@ -96,7 +96,7 @@ select { max-width: 100%; }
 .scroll { overflow-x: auto; }
 #rows { width: 100%; }
 #rows thead th { white-space: normal; vertical-align: bottom; }
-#rows code { overflow-wrap: anywhere; }
+#rows code { white-space: nowrap; }
 #rows thead button { border: 0; background: none; padding: 0; font-weight: 600; cursor: pointer; text-align: inherit; }
 #rows th[aria-sort="ascending"] button::after { content: " ▲"; }
 #rows th[aria-sort="descending"] button::after { content: " ▼"; }
