@@ -14,14 +14,14 @@ void share(const std::vector<KnobRows*>& knobs) {
   std::vector<FrameCost> frames;
   std::optional<std::uint64_t> bytes;
   for (const KnobRows* knob : knobs)
-    for (const MeasuredRow& measured : knob->rows) {
+    for (const TimedRow& measured : knob->rows) {
       frames.insert(frames.end(), measured.standard.begin(), measured.standard.end());
       if (measured.row.is_default && !bytes) bytes = measured.row.gpu_bytes;
     }
   if (frames.empty()) return;
   for (KnobRows* knob : knobs) {
     const TimedValue standard = summarize_frames(frames, knob->module);
-    for (MeasuredRow& measured : knob->rows) {
+    for (TimedRow& measured : knob->rows) {
       LedgerRow& row = measured.row;
       if (row.is_default) {
         set_times(standard, row);

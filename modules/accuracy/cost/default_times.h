@@ -14,7 +14,7 @@ struct KnobRows {
   std::string module;  ///< that declares the knob
   /// Frames of the knob's default are frames of the user's own settings, which other knobs' frames are, too.
   bool default_is_users = true;
-  std::vector<MeasuredRow> rows;
+  std::vector<TimedRow> rows;
 };
 
 /// Gives all rows of the default one time and one memory, and every other row the default's time times its ratio. The

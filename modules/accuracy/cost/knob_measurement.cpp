@@ -100,8 +100,8 @@ std::string KnobMeasurement::identity(const std::string& value) const {
          std::to_string(request_.sequence);
 }
 
-Result<MeasuredRow> KnobMeasurement::measure(const std::string& value) {
-  MeasuredRow measured = {.row = {.knob = knob_.name, .value = value, .is_default = value == default_}};
+Result<TimedRow> KnobMeasurement::measure(const std::string& value) {
+  TimedRow measured = {.row = {.knob = knob_.name, .value = value, .is_default = value == default_}};
   LedgerRow& row = measured.row;
   GLOAM_TRY(judge(value, row));
   GLOAM_TRY(set(value));

@@ -27,7 +27,7 @@ class KnobMeasurement {
 
   /// Everything that a row of this value depends on, in one line.
   [[nodiscard]] std::string identity(const std::string& value) const;
-  [[nodiscard]] Result<MeasuredRow> measure(const std::string& value);
+  [[nodiscard]] Result<TimedRow> measure(const std::string& value);
   /// Times the default against itself.
   [[nodiscard]] Result<std::vector<FrameCost>> time_default();
   /// Whether the user's own value of the knob is the default, so that frames of its default are the user's frames.

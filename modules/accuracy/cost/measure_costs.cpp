@@ -40,7 +40,7 @@ class LedgerRun {
     share_default_times(knobs_);
     std::vector<LedgerRow> rows;
     for (KnobRows& knob : knobs_)
-      for (MeasuredRow& measured : knob.rows) rows.push_back(std::move(measured.row));
+      for (TimedRow& measured : knob.rows) rows.push_back(std::move(measured.row));
     mark_pareto_front(rows);
     return rows;
   }
@@ -55,7 +55,7 @@ class LedgerRun {
   [[nodiscard]] Status add(KnobMeasurement& measurement, const std::string& name, const std::string& value,
                            KnobRows& rows) {
     const std::string identity = measurement.identity(value);
-    std::optional<MeasuredRow> row = store_.load(identity);
+    std::optional<TimedRow> row = store_.load(identity);
     if (row && !has_pictures(row->row)) row.reset();
     const bool resumed = row.has_value();
     if (!resumed) {

@@ -165,15 +165,15 @@ std::string dump(const Json& json, int indent) { return json.dump(indent, ' ', f
 
 }  // namespace
 
-std::string row_json(const MeasuredRow& measured) {
+std::string row_json(const TimedRow& measured) {
   Json json = {{"row", json_of(measured.row)}, {"default_frames", Json::array()}};
   for (const FrameCost& frame : measured.standard) json["default_frames"].push_back(json_of(frame));
   return dump(json, -1);
 }
 
-Result<MeasuredRow> parse_row_json(std::string_view text) {
+Result<TimedRow> parse_row_json(std::string_view text) {
   return parse(text, "row of a ledger", [](const Json& json) {
-    MeasuredRow measured = {.row = row_of(json.at("row"))};
+    TimedRow measured = {.row = row_of(json.at("row"))};
     for (const Json& frame : json.at("default_frames")) measured.standard.push_back(frame_of(frame));
     return measured;
   });

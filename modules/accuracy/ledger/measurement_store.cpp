@@ -11,7 +11,7 @@ std::string MeasurementStore::path_of(const std::string& identity) const {
   return folder_ + "/" + hash_text(identity) + ".row";
 }
 
-std::optional<MeasuredRow> MeasurementStore::load(const std::string& identity) const {
+std::optional<TimedRow> MeasurementStore::load(const std::string& identity) const {
   const std::optional<std::string> payload = read_sealed(path_of(identity), identity);
   if (!payload) return std::nullopt;
   auto row = parse_row_json(*payload);
@@ -19,7 +19,7 @@ std::optional<MeasuredRow> MeasurementStore::load(const std::string& identity) c
   return std::move(row).value();
 }
 
-Status MeasurementStore::save(const std::string& identity, const MeasuredRow& row) const {
+Status MeasurementStore::save(const std::string& identity, const TimedRow& row) const {
   return write_sealed(path_of(identity), identity, row_json(row));
 }
 

@@ -17,8 +17,8 @@ class MeasurementStore {
   explicit MeasurementStore(std::string folder) : folder_(std::move(folder)) {}
 
   /// None if the file is absent, damaged or of another identity.
-  [[nodiscard]] std::optional<MeasuredRow> load(const std::string& identity) const;
-  [[nodiscard]] Status save(const std::string& identity, const MeasuredRow& row) const;
+  [[nodiscard]] std::optional<TimedRow> load(const std::string& identity) const;
+  [[nodiscard]] Status save(const std::string& identity, const TimedRow& row) const;
   [[nodiscard]] std::string path_of(const std::string& identity) const;
 
  private:

@@ -12,14 +12,14 @@
 namespace gloam {
 
 /// A row and the frames of the default that were timed beside it; none for a row of the default.
-struct MeasuredRow {
+struct TimedRow {
   LedgerRow row;
   std::vector<FrameCost> standard;
-  bool operator==(const MeasuredRow&) const = default;
+  bool operator==(const TimedRow&) const = default;
 };
 
 /// One row as JSON on one line, and back. Parse errors are of ErrorKind::input.
-[[nodiscard]] std::string row_json(const MeasuredRow& measured);
-[[nodiscard]] Result<MeasuredRow> parse_row_json(std::string_view text);
+[[nodiscard]] std::string row_json(const TimedRow& measured);
+[[nodiscard]] Result<TimedRow> parse_row_json(std::string_view text);
 
 }  // namespace gloam

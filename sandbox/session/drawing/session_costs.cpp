@@ -54,8 +54,7 @@ Result<FrameCost> SessionCosts::draw(std::int32_t index) {
   const auto sample = session_.render_frame(request_);
   if (!sample) return sample.error();
   index_ = index;
-  FrameCost cost = {
-      .cpu_ms = sample->report.cpu_ms, .gpu_ms = sample->report.gpu_ms, .modules = module_costs(*sample)};
+  FrameCost cost = {.cpu_ms = sample->report.cpu_ms, .gpu_ms = sample->report.gpu_ms, .modules = module_costs(*sample)};
   if (session_.device->info().type == gpu::DeviceType::cpu)
     cost.processor_ms = (processor_time_ms() - begin_ms) / usable_cores();
   return cost;

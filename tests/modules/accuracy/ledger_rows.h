@@ -48,8 +48,8 @@ inline LedgerRow full_row(std::uint32_t seed = 1) {
 }
 
 /// full_row() beside frames of the default.
-inline MeasuredRow measured(std::uint32_t seed = 1) {
-  MeasuredRow row = {.row = full_row(seed), .standard = {}};
+inline TimedRow measured(std::uint32_t seed = 1) {
+  TimedRow row = {.row = full_row(seed), .standard = {}};
   for (std::uint32_t frame = 0; frame < seed; ++frame)
     row.standard.push_back({0.1 * frame, 1.0 / 3.0, 1e-9 * seed, {{"fog", 0.7, 1e300}, {"lights", 0.0, 2.0}}});
   return row;
