@@ -18,7 +18,8 @@ double processor_time_ms() {
 
 std::uint32_t usable_cores() {
   cpu_set_t cores;
-  if (sched_getaffinity(0, sizeof(cores), &cores) == 0) return std::max(static_cast<std::uint32_t>(CPU_COUNT(&cores)), 1u);
+  if (sched_getaffinity(0, sizeof(cores), &cores) == 0)
+    return std::max(static_cast<std::uint32_t>(CPU_COUNT(&cores)), 1u);
   return std::max(std::thread::hardware_concurrency(), 1u);  // more cores than a cpu_set_t holds
 }
 

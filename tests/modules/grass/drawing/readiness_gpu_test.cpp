@@ -59,7 +59,8 @@ class GrassReadiness : public testing::TestWithParam<ViewKind> {
   }
 
   GuestModule::Passes no_passes = [](FrameBuilder&, PassPhase) {};
-  std::unique_ptr<JobExecutor> executor = make_pool_executor(2);
+  /// The gate stops other threads, also where they would make a pipeline that the frame waits for.
+  std::unique_ptr<JobExecutor> executor = make_serial_executor();
   std::unique_ptr<gpu::RecordingDevice> device = gpu::make_recording_device();
   GatedDevice gate{*device};
   std::unique_ptr<Renderer> renderer;
