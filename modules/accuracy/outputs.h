@@ -136,7 +136,7 @@ struct Ledger {
 ///   is as right and significantly cheaper (the intervals of their ratios are apart), or
 ///   is not significantly dearer, and more right by more than the references' noise.
 /// Of values with equal pictures at most one is: the one that is cheaper than the others (by their 99.8 % intervals),
-/// or else the default or the first. If that is all values of the knob, none is. Rows without an error and wrong rows
+/// or else the default. If that is all values of the knob, none is. Rows without an error and wrong rows
 /// are on no front.
 void mark_pareto_front(std::vector<LedgerRow>& rows);
 

@@ -69,8 +69,8 @@ class Cost(ProgramCase):
             self.expect(0, *common, "--knobs", knobs, "--out", folder)
             rows = self.read_json(f"{folder}/ledger.json")["rows"]
             for row in rows:
-                if row["knob"] == "fog.radius":
-                    self.assertFalse(row["front"], row)
+                # Chance may find a time of one value apart from the default's, but no star is given without that.
+                self.assertFalse(row["front"] and row["no_effect"] and not row["default"], row)
             return {(row["knob"], row["value"]): row["ratio_interval"] for row in rows if not row["default"]}
 
         quiet = ratios("quiet")

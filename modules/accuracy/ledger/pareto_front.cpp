@@ -40,7 +40,10 @@ void keep_one_of_equals(const KnobValues& values) {
     if (equals.size() < 2) continue;
     const auto standard =
         std::find_if(equals.begin(), equals.end(), [](const LedgerRow* row) { return row->is_default; });
-    const LedgerRow* representative = standard != equals.end() ? *standard : equals.front();
+    const auto cheapest = std::min_element(equals.begin(), equals.end(), [](const LedgerRow* a, const LedgerRow* b) {
+      return a->sure_high < b->sure_high;
+    });
+    const LedgerRow* representative = standard != equals.end() ? *standard : *cheapest;
     for (LedgerRow* row : equals) row->on_front = row == representative;
   }
 }

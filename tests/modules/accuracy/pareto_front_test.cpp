@@ -76,6 +76,14 @@ TEST(pareto_front, of_equal_pictures_it_keeps_the_significantly_cheaper_or_the_d
   EXPECT_EQ(front_of(rows), (std::vector<bool>{true, false, true}));
 }
 
+TEST(pareto_front, gives_no_star_to_a_value_that_is_no_cheaper_than_the_default) {
+  // The first lies between the default and the last, which is surely cheaper than the default.
+  std::vector<LedgerRow> rows = {point("a", 0.1, 0.95, 0.1), point("a", 0.1, 1.0), point("a", 0.1, 0.9, 0.02)};
+  for (LedgerRow& row : rows) row.picture = "same";
+  rows[1].is_default = true;
+  EXPECT_EQ(front_of(rows), (std::vector<bool>{false, false, true}));
+}
+
 TEST(pareto_front, has_no_value_of_a_knob_that_changes_nothing) {
   std::vector<LedgerRow> rows = {point("a", 0.1, 0.98, 0.03), point("a", 0.1, 1.0), point("a", 0.1, 1.02, 0.04)};
   for (LedgerRow& row : rows) row.picture = "same";
