@@ -115,6 +115,7 @@ float mean_distribution(float alpha2, NormalEllipse e) {
 // t / r. Both integrate to 1 over all slopes. The factors 1.5 make the peak right where a² is large, and within 2 %
 // where it equals the spread. The factors of t make the core of a point as wide as the Gaussian and the edges of discs
 // two thirds of that: the sum over pixels of no disc varies by more than 3 % with its place.
+// Without a spread, q is 1 and the result is the light's mean alone.
 // The core of an ellipse is that of its short axis, stretched along the long one as much as the second moments of
 // ellipse and spread together are.
 float spread_distribution(ShadingPoint p, NormalEllipse e) {
@@ -151,8 +152,7 @@ vec3 reflected_disc(ShadingPoint p, vec3 to_light, vec3 illuminance, float half_
     float in_plane2 = difference * difference / (max(4.0 - sum2, 1e-6) * cos2);
     float slope2 = max(1.0 - n_dot_h * n_dot_h, 0.0) / cos2;
     NormalEllipse e = normal_ellipse(slope2, in_plane2, v_dot_h, half_angle);
-    float slopes = p.normal_spread > 0.0 ? spread_distribution(p, e) : mean_distribution(p.alpha2, e);
-    specular = 0.5 * slopes / (cos2 * cos2 * smith);
+    specular = 0.5 * spread_distribution(p, e) / (cos2 * cos2 * smith);
   }
   float one = 1.0 - v_dot_h;
   float one2 = one * one;

@@ -77,24 +77,27 @@ LedgerRow row_of(const Json& json) {
   row.wrong = json.at("wrong").get<std::string>();
   const Json& ms = json.at("ms");
   row.ms = {ms.at("median").get<double>(), ms.at("p10").get<double>(), ms.at("p90").get<double>()};
-  row.wall_ms = json.at("wall_ms").get<double>();
+  row.wall_ms = json.value("wall_ms", 0.0);
   row.cpu_ms = json.at("cpu_ms").get<double>();
   row.gpu_ms = json.at("gpu_ms").get<double>();
   row.module_cpu_ms = json.at("module_ms").at("cpu").get<double>();
   row.module_gpu_ms = json.at("module_ms").at("gpu").get<double>();
   row.ratio = json.at("ratio").get<double>();
-  row.ratio_low = json.at("ratio_interval").at(0).get<double>();
-  row.ratio_high = json.at("ratio_interval").at(1).get<double>();
-  row.sure_low = json.at("ratio_sure_interval").at(0).get<double>();
-  row.sure_high = json.at("ratio_sure_interval").at(1).get<double>();
-  row.pairs = json.at("pairs").get<std::uint32_t>();
+  // Ledgers of older programs have no intervals.
+  const Json point = {row.ratio, row.ratio};
+  const Json interval = json.value("ratio_interval", point), sure = json.value("ratio_sure_interval", point);
+  row.ratio_low = interval.at(0).get<double>();
+  row.ratio_high = interval.at(1).get<double>();
+  row.sure_low = sure.at(0).get<double>();
+  row.sure_high = sure.at(1).get<double>();
+  row.pairs = json.value("pairs", 0u);
   row.gpu_bytes = json.at("gpu_bytes").get<std::uint64_t>();
-  row.picture = json.at("picture").get<std::string>();
+  row.picture = json.value("picture", std::string());
   row.reference_picture = json.value("reference_picture", "");  // absent in ledgers of earlier versions, as is `worst`
   for (const Json& area : json.value("worst", Json::array()))
     row.worst.push_back({area.at(0).get<std::uint32_t>(), area.at(1).get<std::uint32_t>(),
                          area.at(2).get<std::uint32_t>(), area.at(3).get<std::uint32_t>()});
-  row.no_effect = json.at("no_effect").get<bool>();
+  row.no_effect = json.value("no_effect", false);
   row.on_front = json.at("front").get<bool>();
   return row;
 }
@@ -146,7 +149,7 @@ LedgerHeader header_of(const Json& json) {
   header.build = json.at("gloam").at("build").get<std::string>();
   header.quick = json.at("quick").get<bool>();
   header.frames = json.at("frames").get<std::uint32_t>();
-  header.clock = json.at("clock").get<std::string>();
+  header.clock = json.value("clock", std::string());
   header.samples = json.at("reference_samples").get<std::uint32_t>();
   return header;
 }

@@ -61,6 +61,18 @@ TEST(ledger_json, says_what_is_wrong_with_a_text) {
   EXPECT_FALSE(parse_row_json("{}").ok());
 }
 
+TEST(ledger_json, reads_ledgers_of_the_same_version_without_later_keys) {
+  auto json = nlohmann::json::parse(ledger_json(full_ledger()));
+  json.erase("clock");
+  for (auto& row : json["rows"])
+    for (const char* later : {"wall_ms", "ratio_interval", "ratio_sure_interval", "pairs", "picture", "no_effect"})
+      row.erase(later);
+  const auto read = parse_ledger_json(json.dump());
+  ASSERT_TRUE(read.ok()) << read.error().message;
+  EXPECT_EQ(read->rows[0].ratio, full_ledger().rows[0].ratio);
+  EXPECT_EQ(read->rows[0].ratio_high, read->rows[0].ratio) << "an interval of one point";
+}
+
 TEST(ledger_json, survives_cutting_at_every_byte) {
   const std::string text = row_json(measured());
   for (std::size_t size = 0; size < text.size(); ++size)
