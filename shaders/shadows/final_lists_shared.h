@@ -81,6 +81,7 @@ struct ShadowTileGroup {
                 // high half: at least the distance to any smooth surface, half precision, 0: none is smooth
 };
 #define GLOAM_GROUP_SUBSURFACE 0x1000u  // any pixel has a subsurface material
+#define GLOAM_GROUP_TRANSMITS 0x2000u   // light from behind reaches any pixel
 
 /// Counters of one view, summed by the GPU. Tiles that show only sky are not counted.
 struct ShadowListCounters {

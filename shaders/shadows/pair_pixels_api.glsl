@@ -40,8 +40,10 @@ const uint kSomeSeeAny = 2u;
 
 shared uint packed_words[16];             // words of the slot
 shared float widths[GLOAM_SLOT_PIXELS];   // penumbra width by pixel
-shared uint filtered[GLOAM_SLOT_PIXELS];  // pixels that need the filter, filtered_count of them
+// Pixels that need the filter, filtered_count of them; from the end back, those that take light from behind.
+shared uint filtered[GLOAM_SLOT_PIXELS];
 shared uint filtered_count;
+shared uint behind_count;
 shared uint found;  // combined flags of all pixels
 // Whether the pixels of a thread fill one or two whole words of the slot. The thread then builds these in own_words;
 // otherwise several threads share a word.
@@ -94,7 +96,7 @@ void keep_own_words(uint lane) {
 
 void start_pixels(uint lane) {
   for (uint i = lane; i < 16u; i += kThreads) packed_words[i] = 0u;
-  if (lane == 0u) found = filtered_count = 0u;
+  if (lane == 0u) found = filtered_count = behind_count = 0u;
 }
 
 #endif

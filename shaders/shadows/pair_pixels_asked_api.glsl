@@ -26,7 +26,8 @@ PixelOfPair pixel_of_pair(LightOfPair light, uvec2 pixel) {
 uvec2 pixel_at(uvec2 tile, uint pixel) { return tile * uint(GLOAM_SHADOW_TILE) + uvec2(pixel & 7u, pixel >> 3); }
 
 // Evaluates the tile's pixels. First each thread evaluates its own pixels as far as possible without the filter; then
-// the pixels that need the filter are distributed over all threads.
+// the pixels that need the filter are distributed over all threads, and then those that take light from behind. Three
+// loops: within the first, the rare pixels of the others would cost all pixels time (registers).
 void ask_pixels(LightOfPair light, uvec2 tile, uint lane) {
   uint some = 0u, i = 0u, steps;
   do {
@@ -41,12 +42,11 @@ void ask_pixels(LightOfPair light, uvec2 tile, uint lane) {
     else
       visibility = unquantised_visibility(p.point);
     p.point.live = live;
-    if (behind) do {
-        visibility = transmittance(p.point, p.extinction_m);
-      } while (never(p.point));
     widths[pixel] = width;
     uint says = keep_visibility(pixel, p, visibility, steps);
-    if (known) {
+    if (behind) {
+      filtered[uint(GLOAM_SLOT_PIXELS) - 1u - atomicAdd(behind_count, 1u)] = pixel;
+    } else if (known) {
       some |= says;
       pack_own_steps(pixel, steps);
     } else {
@@ -63,6 +63,16 @@ void ask_pixels(LightOfPair light, uvec2 tile, uint lane) {
       PixelOfPair p = pixel_of_pair(light, pixel_at(tile, pixel));
       uint says = keep_visibility(pixel, p, filtered_visibility(p.point, widths[pixel]), steps);
       atomicOr(found, says);  // in the loop, not once after it: see never()
+      pack_steps(pixel, steps);
+      i += kThreads;
+    } while (i < count);
+  count = kTransmission != 0u ? behind_count : 0u;
+  i = lane;
+  if (i < count) do {
+      uint pixel = filtered[uint(GLOAM_SLOT_PIXELS) - 1u - i];
+      PixelOfPair p = pixel_of_pair(light, pixel_at(tile, pixel));
+      uint says = keep_visibility(pixel, p, transmittance(p.point, p.extinction_m), steps);
+      atomicOr(found, says);
       pack_steps(pixel, steps);
       i += kThreads;
     } while (i < count);

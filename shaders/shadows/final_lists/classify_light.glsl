@@ -6,7 +6,7 @@
 // Bounds of a tile in the faces of a light, for classify_tile.glsl, which includes this file.
 
 // Whether pixels of the tile may take light from behind. What they get is a transmittance, which no verdict knows.
-bool may_transmit(TileBounds t) { return kTransmission != 0u && t.subsurface; }
+bool may_transmit(TileBounds t) { return kTransmission != 0u && t.transmits; }
 
 // Sets the members that depend on the planes of the tile's pixels. sines: least and greatest sine of the angle between
 // the light's rays and the pixels' surfaces, negative where they face the light. emitter: greatest and least sine of

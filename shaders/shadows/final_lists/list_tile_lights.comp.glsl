@@ -32,6 +32,7 @@ layout(set = 0, binding = 1, scalar) buffer CandidateCommands { ShadowCandidateC
 layout(set = 0, binding = 19) uniform sampler2D depth_image;
 layout(set = 0, binding = 20) uniform usampler2D normal_image;
 layout(set = 0, binding = 21) uniform sampler2D base_color_image;
+layout(set = 0, binding = 23) uniform sampler2D emissive_image;
 
 #include "shaders/shadows/final_lists/take_pair.glsl"
 
@@ -90,7 +91,7 @@ void main() {
   }
   bool two_groups = false;
   if (final_grid.classify != 0u) {
-    TileGroups groups = make_tile_groups(view, depth_image, normal_image, base_color_image, at);
+    TileGroups groups = make_tile_groups(view, depth_image, normal_image, base_color_image, emissive_image, at);
     two_groups = groups.has_two;
     tile_groups[2u * tile_index] = groups.one;
     if (two_groups) tile_groups[2u * tile_index + 1u] = groups.two;

@@ -19,6 +19,7 @@ struct TileBounds {
   float shading_spread;  // as in ShadowTileGroup
   vec2 offsets;          // as in ShadowTileGroup
   bool subsurface;       // any pixel has a subsurface material
+  bool transmits;        // light from behind reaches any pixel
 };
 
 // The two factors of `ray`, ascending, at which the ray meets the planes with these offsets. Both −1 if the ray is
@@ -61,6 +62,7 @@ TileBounds tile_bounds(ViewConstants view, uvec2 tile, ShadowTileGroup g) {
   t.spread = g.spread;
   t.shading_spread = g.shading_spread;
   t.subsurface = (g.pixels & GLOAM_GROUP_SUBSURFACE) != 0u;
+  t.transmits = (g.pixels & GLOAM_GROUP_TRANSMITS) != 0u;
   // Margin for the rounding of dot products.
   float slack = 1e-6 * (abs(g.offsets.x) + abs(g.offsets.y));
   t.offsets = g.offsets + vec2(-slack, slack);

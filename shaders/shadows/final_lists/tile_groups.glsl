@@ -24,6 +24,7 @@ struct TilePixel {
   ShadowReceiver receiver;  // where it is judged
   vec3 shading_normal;
   bool subsurface;
+  bool transmits;  // light from behind reaches it
 };
 
 const uint kNoPixels = 0x03Fu;  // ShadowTileGroup::pixels of an empty group
@@ -49,7 +50,7 @@ void add_pixel(inout ShadowTileGroup g, bool belongs, TilePixel p) {
   uvec4 pixels = uvec4(g.pixels) >> uvec4(0u, 3u, 6u, 9u) & 7u;
   pixels = uvec4(min(pixels.xy, p.at), max(pixels.zw, p.at));
   uint packed = pixels.x | pixels.y << 3 | pixels.z << 6 | pixels.w << 9 | (g.pixels & ~0xFFFu) |
-                (p.subsurface ? GLOAM_GROUP_SUBSURFACE : 0u);
+                (p.subsurface ? GLOAM_GROUP_SUBSURFACE : 0u) | (p.transmits ? GLOAM_GROUP_TRANSMITS : 0u);
   g.spread = belongs ? max(g.spread, length(p.receiver.face_normal - g.normal)) : g.spread;
   g.shading_spread = belongs ? max(g.shading_spread, length(p.shading_normal - g.normal)) : g.shading_spread;
   g.offsets = belongs ? vec2(min(g.offsets.x, along), max(g.offsets.y, along)) : g.offsets;
@@ -74,7 +75,7 @@ ShadowReceiver receiver_at(ViewConstants view, ivec2 at, vec3 position, vec3 fac
 // A few pixels of the tile give the first group its orientation and its plane. The first pixel that does not fit gives
 // them to the second group, and each pixel after it belongs to the group that it fits better.
 TileGroups make_tile_groups(ViewConstants view, sampler2D depth_image, usampler2D normal_image, sampler2D color_image,
-                            uvec2 tile) {
+                            sampler2D emissive_image, uvec2 tile) {
   TileGroups g = TileGroups(empty_group(), empty_group(), false);
   ivec2 first = ivec2(tile) * GLOAM_SHADOW_TILE;
   // The mean of those of four normals that are like the first of them. Normals of pixels without a surface are
@@ -105,6 +106,7 @@ TileGroups make_tile_groups(ViewConstants view, sampler2D depth_image, usampler2
     vec4 depths = textureGather(depth_image, corner);
     uvec4 shading_normals = textureGather(normal_image, corner, 0), normals = textureGather(normal_image, corner, 1);
     vec4 flags = textureGather(color_image, corner, 3);
+    vec4 extinctions = kTransmission != 0u ? textureGather(emissive_image, corner, 3) : vec4(0.0);
     for (int k = 0; k < 4; ++k) {
       const ivec2 offsets[4] = ivec2[](ivec2(0, 1), ivec2(1, 1), ivec2(1, 0), ivec2(0, 0));  // in the order of a gather
       ivec2 at = quad + offsets[k];
@@ -112,7 +114,7 @@ TileGroups make_tile_groups(ViewConstants view, sampler2D depth_image, usampler2
       vec3 position = relative_position(view, vec2(at), max(depths[k], 1e-30));
       TilePixel p = TilePixel(uvec2(at - first), depths[k], position,
                               receiver_at(view, at, position, unpack_normal(normals[k]), flags[k] > 0.5),
-                              unpack_normal(shading_normals[k]), flags[k] > 0.5);
+                              unpack_normal(shading_normals[k]), flags[k] > 0.5, extinctions[k] > 0.0);
       if (surface && !has_one) {
         g.one.normal = p.receiver.face_normal;
         planes.x = dot(g.one.normal, p.position);

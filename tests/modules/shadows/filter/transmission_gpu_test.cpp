@@ -352,6 +352,25 @@ TEST_F(ShadowTransmission, no_light_passes_without_a_length) {
   EXPECT_EQ(pixel(drawn(), 20, 20), dvec3(0.0));
 }
 
+TEST_F(ShadowTransmission, tiles_that_no_light_passes_are_judged_as_without_light_through_bodies) {
+  set("shadows.mode", "deferred");
+  set("shadows.visibility_bits", "8");
+  // The wall's face is turned away from every light. The sheet is out of view.
+  slab(flesh(0.0f), 0.05, 0.6);
+  for (const NamedLight& light : lights_behind()) lamp(light.light, light.position, light.direction);
+  const auto filtered = [&] {
+    for (int frame = 0; frame < 4; ++frame) draw();  // counters arrive later
+    return counter("shadows.tile_lights_filtered");
+  };
+  const double without = filtered();
+  const Entity sheet = thing(test::quad(0.05f, scene.material(flesh(0.004f, true))), at(0.0, 0.0, 5.0));
+  EXPECT_EQ(filtered(), without);
+  world.destroy(sheet);
+  things.pop_back();
+  slab(flesh(0.1f), 0.051, 0.3);  // before the wall's middle
+  EXPECT_GT(filtered(), without);
+}
+
 TEST_F(ShadowTransmission, without_lit_sides_in_the_map_bodies_are_as_sheets) {
   const Material material = flesh(0.005f);
   slab(material, 0.03);
