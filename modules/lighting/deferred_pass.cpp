@@ -48,6 +48,7 @@ DrawProgram shading_program(LocalLights source, const ShadingInputs& inputs, con
   program.depth_compare = gpu::CompareOp::less;
   if (shadows != nullptr) program.constants = shadows->constants;
   if (inputs.transmission) program.constants.set("kTransmission", 1u);
+  if (inputs.plain_highlights) program.constants.set("kPlainHighlights", 1u);
   // Loops with shadows are not unrolled: one pipeline serves any number of directional lights.
   if (!shadowed) program.constants.set("kDirectionalLights", inputs.directional_count);
   if (inputs.specular_ambient_taken) program.constants.set("kSpecularAmbient", 0u);

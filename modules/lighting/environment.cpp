@@ -4,10 +4,15 @@
 
 #include "engine/scene/resources.h"
 #include "engine/scene/transmission.h"
+#include "modules/lighting/knobs.h"
 #include "modules/lighting/outputs.h"
 #include "shaders/lighting/lighting_shared.h"
 
 namespace gloam {
+
+bool plain_highlights(const KnobRegistry& knobs) {
+  return !wide_highlights(knobs) && !knobs.value(kSpecularAntialiasing);
+}
 
 const ShadingInputs& shading_inputs(FrameBuilder& frame) {
   if (const ShadingInputs* there = frame.find<ShadingInputs>()) return *there;
@@ -19,6 +24,7 @@ const ShadingInputs& shading_inputs(FrameBuilder& frame) {
   inputs.specular_ambient_taken = frame.find<SpecularAmbientTaken>() != nullptr;
   inputs.diffuse_light_wanted = frame.find<DiffuseLightWanted>() != nullptr;
   inputs.transmission = lets_light_through(frame.world());
+  inputs.plain_highlights = plain_highlights(frame.knobs());
   if (const LightsOutputs* lights = frame.find<LightsOutputs>()) {
     inputs.directional_count = lights->directional_count;
     inputs.outputs = *lights;

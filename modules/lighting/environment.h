@@ -14,9 +14,13 @@ struct ShadingInputs {
   bool specular_ambient_taken = false;  ///< see SpecularAmbientTaken
   bool diffuse_light_wanted = false;    ///< see DiffuseLightWanted
   bool transmission = false;            ///< lets_light_through()
+  bool plain_highlights = false;        ///< of points at points: neither lights nor pixels have a width
   /// Of the lights module. If the scene has no light: a block without lights, and default values.
   LightsOutputs outputs;
 };
+
+/// ShadingInputs::plain_highlights
+[[nodiscard]] bool plain_highlights(const KnobRegistry& knobs);
 
 /// The frame's ShadingInputs from the board; the first call creates them.
 [[nodiscard]] const ShadingInputs& shading_inputs(FrameBuilder& frame);

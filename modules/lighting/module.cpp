@@ -58,8 +58,10 @@ class LightingModule final : public Module {
   void pipelines(const KnobRegistry& knobs, const gpu::DeviceInfo&, PipelineList& list) const override {
     if (!last_) return;
     const ShadowsOutputs shadows = with_knobs(last_->shadows, knobs);
-    list_deferred_pipelines(last_->inputs, shadows, list);
-    list_forward_pipelines(last_->inputs, shadows, last_->blended, list);
+    ShadingInputs inputs = last_->inputs;
+    inputs.plain_highlights = plain_highlights(knobs);
+    list_deferred_pipelines(inputs, shadows, list);
+    list_forward_pipelines(inputs, shadows, last_->blended, list);
   }
 
   void add_passes(FrameBuilder& frame, PassPhase phase) override {

@@ -84,7 +84,7 @@ class LightsModule final : public Module {
 
   void prepare_view(World& world, ViewId view, const KnobRegistry& knobs) const override {
     prepare_light_view(world, view);
-    world.view_resource<VisibleLights>(view).wide_highlights = knobs.value(kEmitterHighlights);
+    world.view_resource<VisibleLights>(view).wide_highlights = wide_highlights(knobs);
     world.view_resource<TileBound>(view) = knobs.value(kLightTileBound);
     world.view_resource<ZBinSettings>(view).count = knobs.value(kLightZBins);
   }

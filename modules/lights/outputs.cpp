@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "engine/core/assert.h"
+#include "modules/lights/knobs.h"
 #include "modules/lights/masks/mask_population.h"
 #include "modules/lights/selection/light_list.h"
 #include "shaders/lights/lights_shared.h"
@@ -52,6 +53,8 @@ double directional_illuminance_at(const VisibleLights& visible, std::size_t ligh
   const shaders::DirectionalLight& l = visible.block.directional[light];
   return luminance(l.color / visible.light_scale) * std::max(-glm::dot(dvec3(normal), dvec3(l.direction)), 0.0);
 }
+
+bool wide_highlights(const KnobRegistry& knobs) { return knobs.value(kEmitterHighlights); }
 
 void read_light_lists(ShaderPass& pass, const LightsOutputs& lights) {
   pass.read_if_declared("lights", lights.lights);

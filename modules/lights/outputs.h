@@ -67,6 +67,9 @@ struct LightsOutputs {
   [[nodiscard]] bool has_lists() const { return static_cast<bool>(tile_lists); }
 };
 
+/// Whether highlights are as wide as the lights that make them.
+[[nodiscard]] bool wide_highlights(const KnobRegistry& knobs);
+
 /// Binds the light data that the program in use declares: lights, grid (a LightGrid), light_texels, tile_lists,
 /// early_lists, group_masks, mask_tiles and z_bin_words. What the view does not have becomes a placeholder.
 void read_light_lists(ShaderPass& pass, const LightsOutputs& lights);

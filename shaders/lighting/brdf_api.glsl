@@ -5,6 +5,10 @@
 
 #include "shaders/common/math.glsl"
 
+// 1: no light and no pixel has a width, and shading spends nothing on them. A constant: devices that are processors run
+// both sides of a condition.
+layout(constant_id = 25) const uint kPlainHighlights = 0u;
+
 // The glTF 2.0 metallic-roughness BRDF (appendix B): GGX distribution, height-correlated Smith visibility, Schlick
 // Fresnel.
 
@@ -145,7 +149,7 @@ vec3 reflected_disc(ShadingPoint p, vec3 to_light, vec3 illuminance, float half_
   float f = (n_dot_h * p.alpha2 - n_dot_h) * n_dot_h + 1.0;
   float smith = n_dot_l * p.smith_v + p.n_dot_v * sqrt(n_dot_l * (n_dot_l - n_dot_l * p.alpha2) + p.alpha2);
   float specular = 0.5 * p.alpha2 / (kPi * f * f * smith);  // distribution · visibility
-  if (p.normal_spread > 0.0 || half_angle > 0.0) {
+  if (kPlainHighlights == 0u && (p.normal_spread > 0.0 || half_angle > 0.0)) {
     // The half vector's part in the plane of incidence is along l - v, at right angles to l + v.
     float cos2 = max(n_dot_h * n_dot_h, 1e-6);
     float difference = n_dot_l_raw - p.n_dot_v_raw;

@@ -38,8 +38,8 @@ const uint kMostSteps = (1u << kVisibilityBits) - 1u;
 const uint kSomeSeeLess = 1u;
 const uint kSomeSeeAny = 2u;
 
-shared uint packed_words[16];             // words of the slot
-shared float widths[GLOAM_SLOT_PIXELS];   // penumbra width by pixel
+shared uint packed_words[16];            // words of the slot
+shared float widths[GLOAM_SLOT_PIXELS];  // penumbra width by pixel
 // Pixels that need the filter, filtered_count of them; from the end back, those that take light from behind.
 shared uint filtered[GLOAM_SLOT_PIXELS];
 shared uint filtered_count;
