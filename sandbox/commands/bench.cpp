@@ -36,12 +36,16 @@ Status run_bench(const CommandContext& context) {
   GLOAM_TRY(check_scene_exists(options.scene));
 
   BenchContext bench(options, context.log);
-  std::string missed;
+  std::string missed, heading;
   const RowsRun run = run_rows(*chosen, bench, [&](const MeasuredRow& measured) {
     if (!measured.value.skipped && has_bar(*measured.row, measured.value) &&
         !keeps_bar(*measured.row, measured.value.value))
       missed += (missed.empty() ? "" : ", ") + measured.row->id;
-    if (!options.quiet) context.console.print(bench_line(measured));
+    if (options.quiet) return;
+    if (measured.row->heading != heading && !measured.row->heading.empty())
+      context.console.print("\n" + measured.row->heading + "\n");
+    heading = measured.row->heading;
+    context.console.print(bench_line(measured));
   });
   // Write the file even if a row failed, because the rows before it are finished. The failure then decides the exit
   // code.

@@ -51,6 +51,25 @@ class Bench(ProgramCase):
         self.expect(0, "bench", names[0], "--size", "96x54", "--scene", "builtin:lanterns", "--json", "rows.json")
         self.assertNotIn("scene", self.read_json("rows.json")["rows"][0])
 
+    def test_rows_of_papers_stand_under_their_table_beside_the_papers_figure(self):
+        names = ("papers.ff.light_lists.masks_of_tiles", "papers.ff.light_lists.masks_of_groups")
+        said = self.expect(0, "bench", *names, "--json", "rows.json").stdout
+        self.assertEqual(said.count("FF section 2"), 1)
+        self.assertRegex(said, r"masks_of_groups.4k +0.2568 MiB.*; paper: 0.3 MB")
+        tiles, groups = self.read_json("rows.json")["rows"]
+        self.assertEqual(groups["paper"], {"value": 0.3, "unit": "MB"})
+        # 3840 x 2160: 480 x 270 shadow tiles of 8, 60 x 34 groups of 8 x 8 of them; masks of 1024 + 32 bits.
+        self.assertAlmostEqual(tiles["value"] * 2**20, 480 * 270 * 132)
+        self.assertAlmostEqual(groups["value"] * 2**20, 60 * 34 * 132)
+
+    def test_the_shadowed_share_of_the_picture_is_what_the_row_says(self):
+        self.require_device()
+        self.expect(0, "bench", "shadows.exposure", "--size", "96x54", "--quiet", "--json", "rows.json")
+        rows = {row["id"]: row["value"] for row in self.read_json("rows.json")["rows"]}
+        for percent in (0, 25, 50, 100):
+            share = rows[f"shadows.exposure.share.{percent}.shadowed"]
+            self.assertAlmostEqual(share, percent / 100, delta=0.05, msg=percent)
+
     def test_a_failing_row_leaves_the_rows_before_it(self):
         run = self.expect(NO_DEVICE, "bench", "jobs.fork_join", "frame.scene", "--json", "rows.json",
                           env={"VK_ICD_FILENAMES": "/nonexistent", "VK_DRIVER_FILES": "/nonexistent"})

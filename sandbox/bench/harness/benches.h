@@ -46,6 +46,8 @@ void add_shadow_deferred_benches(BenchRegistry& registry);
 void add_shadow_memory_benches(BenchRegistry& registry);
 /// Time of each phase by number of shadowed lights and by resolution.
 void add_shadow_curve_benches(BenchRegistry& registry);
+/// Time of the contact-hardening filter by shadowed share of the picture and by size of the map (Thief §1.3).
+void add_shadow_exposure_benches(BenchRegistry& registry);
 /// Whole frames with moving casters against the gather pass, and the parts of their time.
 void add_shadow_frame_benches(BenchRegistry& registry);
 /// Error of close-up shadows against traced shadows, compared with standard maps that have as many texels.
@@ -83,6 +85,8 @@ void add_dof_cache_benches(BenchRegistry& registry);
 void add_dof_frame_benches(BenchRegistry& registry);
 /// Error of depth of field against frames through many points of the lens.
 void add_dof_error_benches(BenchRegistry& registry);
+/// The tables and figures of the papers beside ours: each row runs a bench that was added before.
+void add_paper_benches(BenchRegistry& registry);
 /// The cost of jobs, ranges and graphs.
 void add_job_benches(BenchRegistry& registry);
 

@@ -75,6 +75,7 @@ BenchRegistry make_bench_registry() {
   add_shadow_memory_benches(registry);
   add_shadow_curve_benches(registry);
   add_shadow_frame_benches(registry);
+  add_shadow_exposure_benches(registry);
   add_closeup_benches(registry);
   add_closeup_cost_benches(registry);
   add_closeup_flicker_benches(registry);
@@ -92,6 +93,7 @@ BenchRegistry make_bench_registry() {
   add_dof_cache_benches(registry);
   add_dof_frame_benches(registry);
   add_dof_error_benches(registry);
+  add_paper_benches(registry);
   return registry;
 }
 

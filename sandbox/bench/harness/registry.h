@@ -38,12 +38,20 @@ struct BenchValue {
 
 enum class Better { lower, higher };
 
+/// A figure of a paper that stands beside ours.
+struct PaperFigure {
+  double value = 0.0;
+  std::string unit;  ///< with the machine: "ms on a console"
+};
+
 /// One bench.
 struct BenchRow {
   std::string id;             ///< "jobs.empty"; unique
   std::string unit;           ///< "ms", "ratio", "ns/entity", "bytes"
   std::optional<double> bar;  ///< limit that the value must keep; none: the value only informs
   Better better = Better::lower;
+  std::string heading;  ///< of the table that the row belongs to; empty: none
+  std::optional<PaperFigure> paper;
   std::function<Result<BenchValue>(BenchContext&)> run;
 };
 

@@ -24,6 +24,7 @@ Json bench_row_json(const MeasuredRow& measured, const std::string& scene) {
   if (barred) json["bar"] = *row.bar;
   json["better"] = row.better == Better::lower ? "lower" : "higher";
   json["holds"] = !barred || keeps_bar(row, value.value);
+  if (row.paper) json["paper"] = {{"value", row.paper->value}, {"unit", row.paper->unit}};
   json["hash"] = value.hash ? Json(*value.hash) : Json(nullptr);
   if (value.scene && *value.scene != scene) json["scene"] = *value.scene;
   return json;
@@ -44,6 +45,7 @@ std::string bench_line(const MeasuredRow& measured) {
     line += std::string(row.better == Better::lower ? ", at most " : ", at least ") + short_number(*row.bar);
     line += kept ? ": holds" : ": MISSED";
   }
+  if (row.paper) line += "; paper: " + short_number(row.paper->value) + " " + row.paper->unit;
   return line + "\n";
 }
 

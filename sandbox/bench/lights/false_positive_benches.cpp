@@ -11,6 +11,7 @@
 #include "sandbox/bench/harness/benches.h"
 #include "sandbox/bench/harness/context.h"
 #include "sandbox/bench/harness/measure.h"
+#include "shaders/lights/lights_shared.h"
 
 // False positives: number of lights per tile that each phase keeps although they reach none of its pixels. For the
 // scene's camera at the chosen size.
@@ -100,6 +101,19 @@ BenchRow counter_row(std::string id, std::string unit, std::shared_ptr<CountedFr
   return row;
 }
 
+/// MiB of one mask for each of the shadow tiles, or tile groups, of a 4K picture.
+BenchRow mask_memory_row(const char* id, std::uint32_t tile_pixels) {
+  const auto tiles = [&](std::uint32_t pixels) { return (pixels + tile_pixels - 1) / tile_pixels; };
+  const double bytes = 4.0 * GLOAM_MASK_WORDS * tiles(3840) * tiles(2160);
+  BenchRow row;
+  row.id = std::string("lights.mask_mib.") + id + ".4k";
+  row.unit = "MiB";
+  row.run = [mib = bytes / 1048576.0](BenchContext&) -> Result<BenchValue> {
+    return single_value(mib, hash_of_number(mib));
+  };
+  return row;
+}
+
 }  // namespace
 
 void add_light_false_positive_benches(BenchRegistry& registry) {
@@ -115,6 +129,8 @@ void add_light_false_positive_benches(BenchRegistry& registry) {
   for (const char* bins : {"256", "512", "1024", "2048", "4096"})
     registry.add(counter_row(std::string("lights.false_positives.z_bins.") + bins, "lights/tile", frames,
                              {{"lights.culling", "tiled"}, {"lights.z_bins", bins}}, mean_of("candidates"), exact));
+  registry.add(mask_memory_row("tiles", GLOAM_SHADOW_TILE));
+  registry.add(mask_memory_row("groups", GLOAM_SHADOW_TILE * GLOAM_TILE_GROUP));
   const Settings checked = {{"lights.culling", "tiled"}, {"lights.check", "on"}};
   for (const char* fault : {"culling_errors", "capacity_violations"}) {
     const std::string name = std::string("lights.") + fault;

@@ -36,6 +36,7 @@ constexpr std::uint32_t kReflectionCostHeight = 360;
 /// Steps of the chain that have rows.
 enum ChainStep : std::size_t { kScreenSpace, kProxies, kGlossy, kComposite };
 constexpr std::size_t kChainSteps = 4;
+constexpr std::size_t kFirstPostStep = kGlossy;
 constexpr std::array<const char*, kChainSteps> kReflectionStepNames = {"screen_space", "proxies", "glossy",
                                                                        "composite"};
 
@@ -237,6 +238,13 @@ void add_reflection_frame_rows(BenchRegistry& registry) {
   for (std::size_t step = 0; step < kChainSteps; ++step)
     add(std::string("frame.") + kReflectionStepNames[step] + "_ms", "ms", std::nullopt,
         [step](const C& c) { return per_item(c.step_ns[step], kNsPerMs, c.hash); });
+  add("frame.post_processing_ms", "ms", std::nullopt, [](const C& c) {
+    // Everything after the two searches.
+    std::vector<double> ns(c.chain_ns.size(), 0.0);
+    for (std::size_t step = kFirstPostStep; step < kChainSteps; ++step)
+      for (std::size_t i = 0; i < ns.size(); ++i) ns[i] += c.step_ns[step][i];
+    return per_item(ns, kNsPerMs, c.hash);
+  });
 }
 
 }  // namespace

@@ -183,6 +183,45 @@ void add_deferred_table(BenchRegistry& registry, const SharedDeferred& shared) {
   }));
 }
 
+/// Columns of FF table 1. Without deferred shadows, filtering is part of lighting.
+struct Table1Columns {
+  std::vector<double> shadow_ns, closeup_ns, lighting_ns;
+};
+
+Table1Columns columns_of(const DeferredWayCost& cost) {
+  const auto phase = [&](ShadowPhase of) -> const std::vector<double>& {
+    return cost.phase_ns[static_cast<std::size_t>(of)];
+  };
+  Table1Columns columns = {{}, {}, phase(ShadowPhase::lighting)};
+  for (std::size_t i = 0; i < cost.total_ns.size(); ++i) {
+    columns.closeup_ns.push_back(phase(ShadowPhase::closeups)[i] + cost.all_ns[i] - cost.total_ns[i]);
+    columns.shadow_ns.push_back(cost.all_ns[i] - columns.closeup_ns[i] - columns.lighting_ns[i]);
+  }
+  return columns;
+}
+
+void add_columns(BenchRegistry& registry, const SharedDeferred& shared) {
+  constexpr std::pair<const char*, DeferredWay> kRows[] = {
+      {"monolithic", kMono}, {"deferred", kTiles}, {"deferred_8_closeups", kPairs}};
+  constexpr std::pair<const char*, std::vector<double> Table1Columns::*> kColumns[] = {
+      {".shadow", &Table1Columns::shadow_ns},
+      {".closeup", &Table1Columns::closeup_ns},
+      {".lighting", &Table1Columns::lighting_ns}};
+  for (const auto& [name, way] : kRows) {
+    const std::string id = std::string("table1.columns.") + name;
+    for (const auto& [column, times] : kColumns)
+      registry.add(way_row(id + column, "ms", shared, [way = way, times = times](const DeferredWayCosts& c) {
+        return per_item(columns_of(c[way]).*times, kNsPerMs, c[way].hash);
+      }));
+    registry.add(way_row(id + ".total", "ms", shared, [way = way](const DeferredWayCosts& c) {
+      return per_item(c[way].all_ns, kNsPerMs, c[way].hash);
+    }));
+    registry.add(way_row(id + ".over_monolithic", "ratio", shared, [way = way](const DeferredWayCosts& c) {
+      return ratio_of(c[way].all_ns, c[kMono].all_ns, hash_beside_monolithic(c, way));
+    }));
+  }
+}
+
 void add_shares(BenchRegistry& registry, const SharedDeferred& shared) {
   for (std::size_t i = 0; i < kShadowPhases; ++i)
     registry.add(way_row(std::string("figure13.") + kShadowPhaseNames[i], "share of deferred", shared,
@@ -210,6 +249,7 @@ void add_shares(BenchRegistry& registry, const SharedDeferred& shared) {
 void add_shadow_deferred_benches(BenchRegistry& registry) {
   const auto shared = std::make_shared<Once<DeferredWayCosts>>();
   add_deferred_table(registry, shared);
+  add_columns(registry, shared);
   add_shares(registry, shared);
 }
 
