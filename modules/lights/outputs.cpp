@@ -54,7 +54,7 @@ double directional_illuminance_at(const VisibleLights& visible, std::size_t ligh
   return luminance(l.color / visible.light_scale) * std::max(-glm::dot(dvec3(normal), dvec3(l.direction)), 0.0);
 }
 
-bool wide_highlights(const KnobRegistry& knobs) { return knobs.value(kEmitterHighlights); }
+bool wide_highlights(const KnobRegistry& knobs) { return knobs.try_value(kEmitterHighlights).value_or(false); }
 
 void read_light_lists(ShaderPass& pass, const LightsOutputs& lights) {
   pass.read_if_declared("lights", lights.lights);

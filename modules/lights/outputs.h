@@ -67,7 +67,7 @@ struct LightsOutputs {
   [[nodiscard]] bool has_lists() const { return static_cast<bool>(tile_lists); }
 };
 
-/// Whether highlights are as wide as the lights that make them.
+/// Whether highlights are as wide as the lights that make them; false without the lights module.
 [[nodiscard]] bool wide_highlights(const KnobRegistry& knobs);
 
 /// Binds the light data that the program in use declares: lights, grid (a LightGrid), light_texels, tile_lists,
