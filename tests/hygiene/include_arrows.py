@@ -70,7 +70,7 @@ ROOMS = {
     "sandbox/session": (("loading", "baking", "drawing", "results"), ("program_knobs", "session")),
     "sandbox/play": (("input", "display", "start"), ()),
     "sandbox/bench": (("harness", "ecs", "jobs", "frame", "lights", "shadows", "closeups", "reflections", "grass",
-                       "particles", "dof"), ()),
+                       "particles", "dof", "papers"), ()),
     "sandbox": (("output", "scenes", "session", "window", "play", "bench", "commands"), ("options", "console", "log")),
     "shaders/shadows": (("maps", "filter", "final_lists", "debug"), None),
     "shaders/grass": (("lod", "simulation", "drawing", "debug"), None),
