@@ -3,6 +3,8 @@
 #include "sandbox/options.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <memory>
@@ -33,6 +35,7 @@ struct RawTexts {
   std::optional<std::string> dt;
   std::optional<std::string> budget;
   std::optional<std::string> ledger;
+  std::optional<std::string> shard;
   bool version = false;
 };
 
@@ -123,10 +126,18 @@ std::vector<CommandApp> add_commands(CLI::App& root, Options& options, RawTexts&
       ->type_name("N");
   bake->add_flag("--beside", options.beside, "Write the captures beside the scene file, not to the cache");
   CLI::App* cost = add(Command::cost, "cost", "Measure error and time of each knob's values");
-  cost->add_option("SCENE", options.scene, scene_text)->required();
+  cost->add_option("SCENE", options.scene, scene_text);
   cost->add_option("--knobs", options.knobs, "Measure only these knobs, comma-separated; * stands for any characters")
       ->type_name("A,B");
   cost->add_flag("--quick", options.quick, "Fewer repetitions, and 320x180 without --size");
+  cost->add_option("--list", options.scene_list,
+                   "Measure the scenes of a file instead of SCENE: one a line with options of its own; paths are "
+                   "relative to the file")
+      ->type_name("FILE");
+  cost->add_option("--shard", raw.shard, "With --list: measure only entries I, I+N, I+2N… (default 1/1: all)")
+      ->type_name("I/N");
+  cost->add_option("--merge", options.merge, "Write one table and one page of the ledgers in these folders of --list")
+      ->type_name("DIR");
   CLI::App* bench = add(Command::bench, "bench", "Run benchmarks: the papers' tables and the CPU systems");
   bench->add_option("NAME", options.names, "Benchmarks to run: the id NAME, or all ids that begin with NAME and a dot");
   bench->add_option("--scene", options.scene, scene_text)->type_name("SCENE");
@@ -166,6 +177,12 @@ Status read_seconds(const char* option, std::string_view text, double& seconds) 
   return usage(std::string(option) + " wants a finite number of seconds, not '" + std::string(text) + "'");
 }
 
+Status read_shard(const std::string& text, Shard& shard) {
+  const bool read = parse_pair(text, '/', shard.number, shard.count);
+  if (read && shard.number >= 1 && shard.number <= shard.count) return {};
+  return usage("--shard wants I/N with I in 1…N, not '" + text + "'");
+}
+
 Status check_texts(Options& options, const RawTexts& raw) {
   for (const auto& [name, text] : {std::pair("--budget", &raw.budget), std::pair("--ledger", &raw.ledger)})
     if (text->has_value()) return usage(std::string(name) + " is not built yet; set knobs with --set or --config");
@@ -178,6 +195,10 @@ Status check_texts(Options& options, const RawTexts& raw) {
   options.scale_given = raw.scale.has_value();
   if (raw.time) GLOAM_TRY(read_seconds("--time", *raw.time, options.time_s));
   if (raw.dt) GLOAM_TRY(read_seconds("--dt", *raw.dt, options.dt_s));
+  if (raw.shard) {
+    if (options.scene_list.empty()) return usage("--shard needs --list FILE");
+    GLOAM_TRY(read_shard(*raw.shard, options.shard));
+  }
   if (raw.scale) GLOAM_TRY(read_scale(*raw.scale, options.scale));
   if (raw.in_flight) {
     if (raw.in_flight != "1" && raw.in_flight != "2")
@@ -201,6 +222,12 @@ bool names_a_picture(const std::string& path) {
   return path.ends_with(".png") || path.ends_with(".exr") || path == "/dev/stdout" || path == "/dev/stderr";
 }
 
+Status check_cost(const Options& options) {
+  if (options.out.empty()) return usage("cost needs --out DIR");
+  const int sources = int{!options.scene.empty()} + int{!options.scene_list.empty()} + int{!options.merge.empty()};
+  return sources == 1 ? Status() : usage("cost needs one of SCENE, --list FILE and --merge DIR…");
+}
+
 Status check_values(const Options& options) {
   if (options.frames < 1 && options.command != Command::play) return usage("--frames wants a number of at least 1");
   if (!std::isfinite(options.time_s)) return usage("--time wants a finite number of seconds");
@@ -213,7 +240,7 @@ Status check_values(const Options& options) {
   const bool writes_picture = options.command == Command::render || options.command == Command::play;
   if (writes_picture && !options.out.empty() && !names_a_picture(options.out))
     return usage("--out wants a name that ends in .png or .exr, not '" + options.out + "'");
-  if (options.command == Command::cost && options.out.empty()) return usage("cost needs --out DIR");
+  if (options.command == Command::cost) return check_cost(options);
   if (options.command == Command::bench && options.names.empty() && !options.list)
     return usage("bench needs a NAME, or --list");
   return {};
@@ -225,11 +252,29 @@ std::string default_cache_directory() {
   return {};
 }
 
-std::unique_ptr<CLI::App> make_app(Options& options, RawTexts& raw, std::vector<CommandApp>& commands) {
+std::unique_ptr<CLI::App> make_app(Options& options, RawTexts& raw, std::vector<CommandApp>& commands,
+                                   RepeatedOptions repeated = RepeatedOptions::error) {
   auto app = std::make_unique<CLI::App>("Many lights, soft shadows, wet reflections, moving grass", "gloam");
+  if (repeated == RepeatedOptions::last) app->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   app->add_flag("--version", raw.version, "Print the version");
   commands = add_commands(*app, options, raw);
   return app;
+}
+
+/// The command's given options as arguments, without those that say what a sweep does.
+std::vector<std::string> shared_arguments(const CLI::App& command) {
+  constexpr std::array kOfTheSweep = {"--list", "--shard", "--merge", "--out"};
+  std::vector<std::string> arguments;
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string name = option->get_name();
+    if (option->count() == 0 || !name.starts_with("--") || std::ranges::find(kOfTheSweep, name) != kOfTheSweep.end())
+      continue;
+    for (const std::string& value : option->results()) {
+      arguments.push_back(name);
+      if (option->get_type_size() > 0) arguments.push_back(value);
+    }
+  }
+  return arguments;
 }
 
 /// Returns ErrorKind::usage if the first argument is neither an option nor a command.
@@ -254,12 +299,12 @@ std::string help_text() {
 }
 
 Result<std::variant<Options, PrintAndLeave>> parse_options(std::span<const std::string> arguments,
-                                                           const std::string& version) {
+                                                           const std::string& version, RepeatedOptions repeated) {
   using Outcome = std::variant<Options, PrintAndLeave>;
   Options options;
   RawTexts raw;
   std::vector<CommandApp> commands;
-  const std::unique_ptr<CLI::App> app = make_app(options, raw, commands);
+  const std::unique_ptr<CLI::App> app = make_app(options, raw, commands, repeated);
   GLOAM_TRY(check_command(arguments, commands));
   try {
     app->parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
@@ -287,6 +332,7 @@ Result<std::variant<Options, PrintAndLeave>> parse_options(std::span<const std::
     options.scene = "builtin:lanterns";
     options.scene_is_default = true;
   }
+  if (!options.scene_list.empty()) options.shared_arguments = shared_arguments(*chosen);
   GLOAM_TRY(check_texts(options, raw));
   GLOAM_TRY(check_values(options));
   return Outcome(std::move(options));

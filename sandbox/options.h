@@ -20,6 +20,12 @@ struct PixelPosition {
   std::uint32_t y = 0;
 };
 
+/// A share of a list: the entries whose index modulo `count` is `number` - 1.
+struct Shard {
+  std::uint32_t number = 1;  ///< 1…count
+  std::uint32_t count = 1;
+};
+
 /// The parsed command line. Every number is in its documented range.
 struct Options {
   Command command = Command::render;
@@ -60,6 +66,11 @@ struct Options {
   bool beside = false;             ///< bake: write the captures beside the scene file
   std::string knobs;               ///< cost: comma-separated
   bool quick = false;              ///< cost
+  std::string scene_list;          ///< cost: file with one scene a line; empty: the measured scene is `scene`
+  Shard shard;                     ///< cost with scene_list
+  std::vector<std::string> merge;  ///< cost: folders of sweeps
+  /// cost with scene_list: the other given options, as arguments that go before those of each scene of the list.
+  std::vector<std::string> shared_arguments;
   std::vector<std::string> names;  ///< bench
   std::string json_file;           ///< bench
   bool list = false;               ///< bench
@@ -73,10 +84,14 @@ struct PrintAndLeave {
   std::string text;
 };
 
+/// An option with one value that is given twice is an error, or its last value counts.
+enum class RepeatedOptions { error, last };
+
 /// Parses the arguments of main, without the program's name. version: the text that --version prints. All errors are
 /// ErrorKind::usage.
-[[nodiscard]] Result<std::variant<Options, PrintAndLeave>> parse_options(std::span<const std::string> arguments,
-                                                                         const std::string& version);
+[[nodiscard]] Result<std::variant<Options, PrintAndLeave>> parse_options(
+    std::span<const std::string> arguments, const std::string& version,
+    RepeatedOptions repeated = RepeatedOptions::error);
 
 /// The text that `gloam` prints if it is run without arguments.
 [[nodiscard]] std::string help_text();

@@ -113,6 +113,7 @@ struct LedgerHeader {
   std::string clock;          ///< what LedgerRow::ms is
   std::string version;        ///< of the program
   std::string build;          ///< hash of this build, hexadecimal
+  std::string host;           ///< name of the machine; empty in ledgers of earlier versions
   bool quick = false;         ///< small picture, few frames and samples: noisier
   std::uint32_t frames = 0;   ///< most timed frames per value
   std::uint32_t samples = 0;  ///< samples of references that sample

@@ -10,6 +10,7 @@
 #include "modules/accuracy/outputs.h"
 #include "modules/module_list/module_list.h"
 #include "sandbox/commands/commands.h"
+#include "sandbox/commands/sweep.h"
 #include "sandbox/output/file_io.h"
 #include "sandbox/output/identity.h"
 #include "sandbox/output/pictures/picture_folder.h"
@@ -88,6 +89,7 @@ LedgerHeader header_of(const Session& session, const Options& options) {
           .clock = clock_of(device.type),
           .version = GLOAM_VERSION,
           .build = program_hash(),
+          .host = host_name(),
           .quick = options.quick,
           .frames = options.quick ? kQuickFrames : kLedgerFrames,
           .samples = options.quick ? kQuickSamples : kLedgerSamples};
@@ -175,7 +177,7 @@ Status write_ledger(const Ledger& ledger, const std::string& folder) {
 
 }  // namespace
 
-Status run_cost(const CommandContext& context) {
+Status measure_scene(const CommandContext& context) {
   Options options = context.options;
   if (options.quick && !options.size_given) {
     options.width = kQuickWidth;
@@ -206,6 +208,11 @@ Status run_cost(const CommandContext& context) {
                           " rows were measured before\n");
   context.console.print("wrote " + options.out + "/report.html, ledger.json and ledger.csv\n");
   return {};
+}
+
+Status run_cost(const CommandContext& context) {
+  if (!context.options.merge.empty()) return run_merge(context);
+  return context.options.scene_list.empty() ? measure_scene(context) : run_sweep(context);
 }
 
 }  // namespace gloam

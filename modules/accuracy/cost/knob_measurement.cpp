@@ -96,8 +96,8 @@ std::string KnobMeasurement::frame_identity(const std::string& value) const {
 }
 
 std::string KnobMeasurement::identity(const std::string& value) const {
-  return frame_identity(value) + " frames " + std::to_string(request_.header.frames) + " sequence " +
-         std::to_string(request_.sequence);
+  return frame_identity(value) + joined_line(" host '" + request_.header.host + "'") + " frames " +
+         std::to_string(request_.header.frames) + " sequence " + std::to_string(request_.sequence);
 }
 
 Result<TimedRow> KnobMeasurement::measure(const std::string& value) {

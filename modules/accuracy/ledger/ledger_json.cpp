@@ -123,6 +123,7 @@ Json json_of(const LedgerHeader& header) {
                     {"driver", header.driver},
                     {"type", header.device_type},
                     {"subgroup_size", header.subgroup_size}};
+  json["host"] = header.host;
   json["size"] = {header.width, header.height};
   json["gloam"] = {{"version", header.version}, {"build", header.build}};
   json["quick"] = header.quick;
@@ -147,6 +148,7 @@ LedgerHeader header_of(const Json& json) {
   header.height = json.at("size").at(1).get<std::uint32_t>();
   header.version = json.at("gloam").at("version").get<std::string>();
   header.build = json.at("gloam").at("build").get<std::string>();
+  header.host = json.value("host", std::string());
   header.quick = json.at("quick").get<bool>();
   header.frames = json.at("frames").get<std::uint32_t>();
   header.clock = json.value("clock", std::string());
