@@ -271,7 +271,7 @@ std::vector<std::string> shared_arguments(const CLI::App& command) {
       continue;
     for (const std::string& value : option->results()) {
       arguments.push_back(name);
-      if (option->get_type_size() > 0) arguments.push_back(value);
+      if (option->get_items_expected_max() > 0) arguments.push_back(value);
     }
   }
   return arguments;
