@@ -130,6 +130,11 @@ std::vector<CommandApp> add_commands(CLI::App& root, Options& options, RawTexts&
   cost->add_option("--knobs", options.knobs, "Measure only these knobs, comma-separated; * stands for any characters")
       ->type_name("A,B");
   cost->add_flag("--quick", options.quick, "Fewer repetitions, and 320x180 without --size");
+  cost->add_option("--cameras", options.cameras,
+                   "Measure several cameras, comma-separated: the ledger has the worst of them, and each camera's rows")
+      ->type_name("A,B");
+  cost->add_flag("--path", options.path,
+                 "Measure each camera at 5 times, evenly over the scene's longest animation: the ledger has the worst");
   cost->add_option("--list", options.scene_list,
                    "Measure the scenes of a file instead of SCENE: one a line with options of its own; paths are "
                    "relative to the file")
@@ -225,6 +230,7 @@ bool names_a_picture(const std::string& path) {
 Status check_cost(const Options& options) {
   if (options.out.empty()) return usage("cost needs --out DIR");
   const int sources = int{!options.scene.empty()} + int{!options.scene_list.empty()} + int{!options.merge.empty()};
+  if (!options.cameras.empty() && !options.camera.empty()) return usage("cost takes --camera or --cameras, not both");
   return sources == 1 ? Status() : usage("cost needs one of SCENE, --list FILE and --merge DIR…");
 }
 

@@ -66,6 +66,8 @@ struct Options {
   bool beside = false;             ///< bake: write the captures beside the scene file
   std::string knobs;               ///< cost: comma-separated
   bool quick = false;              ///< cost
+  std::string cameras;             ///< cost: comma-separated
+  bool path = false;               ///< cost: the camera at times along the scene's animation
   std::string scene_list;          ///< cost: file with one scene a line; empty: the measured scene is `scene`
   Shard shard;                     ///< cost with scene_list
   std::vector<std::string> merge;  ///< cost: folders of sweeps

@@ -127,10 +127,20 @@ struct SkippedKnob {
   bool operator==(const SkippedKnob&) const = default;
 };
 
+/// The rows of one camera of a ledger of several.
+struct CameraRows {
+  std::string camera;
+  double time_s = 0.0;
+  std::vector<LedgerRow> rows;
+  bool operator==(const CameraRows&) const = default;
+};
+
 struct Ledger {
   LedgerHeader header;
   std::vector<LedgerRow> rows;  ///< grouped by knob, in the order of the knob's values
   std::vector<SkippedKnob> skipped;
+  /// Only of several cameras: then `rows` are their worst, and header.camera has their names, separated by commas.
+  std::vector<CameraRows> cameras = {};
 };
 
 /// Sets no_effect and on_front of every row, for each knob separately. A row is on the front unless another value
@@ -141,6 +151,10 @@ struct Ledger {
 /// are on no front.
 void mark_pareto_front(std::vector<LedgerRow>& rows);
 
+/// One ledger of several, each of another camera or time. Each value has its greatest error, ratio, time and memory
+/// over the cameras; fronts are of these. A single ledger stays as it is.
+[[nodiscard]] Ledger worst_of_cameras(std::vector<Ledger> ledgers);
+
 /// A readable table: a header, then one aligned line per row. `*` marks the front, `!` a wrong row.
 [[nodiscard]] std::string ledger_table(const Ledger& ledger);
 
@@ -149,7 +163,8 @@ void mark_pareto_front(std::vector<LedgerRow>& rows);
 /// Malformed text gives an error of ErrorKind::input that names the fault.
 [[nodiscard]] Result<Ledger> parse_ledger_json(std::string_view text);
 
-/// One line of column names, then one line per row (RFC 4180). Absent numbers are empty.
+/// One line of column names, then one line per row (RFC 4180). Absent numbers are empty. The last column is the camera:
+/// of several, their worst rows come first, with all names, then the rows of each.
 [[nodiscard]] std::string ledger_csv(const Ledger& ledger);
 
 }  // namespace gloam

@@ -10,6 +10,7 @@
 #include "modules/accuracy/outputs.h"
 #include "modules/module_list/module_list.h"
 #include "sandbox/commands/commands.h"
+#include "sandbox/commands/cost_cameras.h"
 #include "sandbox/commands/sweep.h"
 #include "sandbox/output/file_io.h"
 #include "sandbox/output/identity.h"
@@ -17,6 +18,7 @@
 #include "sandbox/output/progress_bar.h"
 #include "sandbox/session/baking/captures.h"
 #include "sandbox/session/drawing/session_costs.h"
+#include "sandbox/session/loading/scene_files.h"
 #include "sandbox/session/loading/scene_loading.h"
 #include "sandbox/session/session.h"
 
@@ -49,7 +51,18 @@ class ConsoleProgress final : public CostProgress {
     static_cast<void>(console_.flush());
   }
 
+  /// The next rows are of this camera, the one of index `camera` of `cameras`.
+  void begin_camera(std::size_t camera, std::size_t cameras, const Options& options) {
+    camera_ = camera;
+    cameras_ = cameras;
+    if (cameras > 1 && !quiet_ && !console_.shows_progress())
+      console_.print(formatted("camera %zu of %zu: ", camera + 1, cameras) +
+                     (options.camera.empty() ? std::string("the first") : options.camera) +
+                     formatted(" at %g s\n", options.time_s));
+  }
+
   [[nodiscard]] std::size_t resumed() const { return resumed_; }
+  [[nodiscard]] std::size_t rows() const { return resumed_ + measured_; }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -58,6 +71,8 @@ class ConsoleProgress final : public CostProgress {
   bool quiet_ = false;
   std::size_t measured_ = 0;
   std::size_t resumed_ = 0;
+  std::size_t camera_ = 0;
+  std::size_t cameras_ = 1;
   Clock::time_point begin_;
 };
 
@@ -148,6 +163,8 @@ std::string command_line(const Options& options) {
   add("--size", formatted("%ux%u", options.width, options.height), options.size_given);
   add("--knobs", options.knobs, !options.knobs.empty());
   add("--camera", options.camera, !options.camera.empty());
+  add("--cameras", options.cameras, !options.cameras.empty());
+  if (options.path) line += " --path";
   add("--time", formatted("%.17g", options.time_s), options.time_s != standard.time_s);
   add("--dt", formatted("%.17g", options.dt_s), options.dt_s != standard.dt_s);
   add("--frames", std::to_string(options.frames), options.frames != standard.frames);
@@ -161,10 +178,9 @@ std::string command_line(const Options& options) {
   return line;
 }
 
-Status write_report(const Ledger& ledger, const Options& options, const KnobRegistry& knobs,
+Status write_report(const Ledger& ledger, const Options& options, const std::vector<KnobMeaning>& knobs,
                     const PictureFolder& pictures) {
-  ReportRequest request = {.command = command_line(options)};
-  for (const Knob& knob : knobs.knobs()) request.meanings.push_back({knob.name, knob.meaning});
+  ReportRequest request = {.command = command_line(options), .meanings = knobs, .picture = {}};
   request.picture = [&](const std::string& name) { return pictures.small_file(name); };
   return write_file(options.out + "/report.html", ledger_report(ledger, request));
 }
@@ -173,6 +189,42 @@ Status write_ledger(const Ledger& ledger, const std::string& folder) {
   GLOAM_TRY(make_folder_of(folder + "/ledger.json"));
   GLOAM_TRY(write_file(folder + "/ledger.json", ledger_json(ledger)));
   return write_file(folder + "/ledger.csv", ledger_csv(ledger));
+}
+
+struct MeasuredCameras {
+  Ledger ledger;
+  std::vector<KnobMeaning> knobs;
+};
+
+/// Measures each camera in a session of its own, so that its rows do not depend on what was drawn before.
+Result<MeasuredCameras> measure_cameras(const Options& options, const std::vector<std::string>& chosen,
+                                        const CommandContext& context, ConsoleProgress& progress) {
+  MeasuredCameras measured;
+  std::vector<Ledger> ledgers;
+  std::vector<Options> cameras = {options};
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    auto opened = open_session(cameras[i], context.log);
+    if (!opened) return opened.error();
+    Session& session = **opened;
+    if (i == 0) {
+      auto all = options_of_cameras(options, session);
+      if (!all) return all.error();
+      cameras = std::move(all).value();
+      const auto camera = find_camera(session.world, session.info, cameras.front().camera);
+      if (!camera) return camera.error();
+      session.camera = *camera;
+      for (const Knob& knob : session.renderer->knobs().knobs()) measured.knobs.push_back({knob.name, knob.meaning});
+    }
+    GLOAM_TRY(ensure_baked(session, cameras[i], context.log, &context.console));
+    SessionCosts costs(session, cameras[i]);
+    progress.begin_camera(i, cameras.size(), cameras[i]);
+    auto ledger = measure_costs(make_request(session, cameras[i], chosen), costs, progress);
+    if (!ledger) return ledger.error();
+    GLOAM_TRY(session.check_validation());
+    ledgers.push_back(std::move(ledger).value());
+  }
+  measured.ledger = worst_of_cameras(std::move(ledgers));
+  return measured;
 }
 
 }  // namespace
@@ -189,22 +241,21 @@ Status measure_scene(const CommandContext& context) {
   // Fail before minutes of measuring whose results could not be written.
   GLOAM_TRY(make_folder_of(options.out + "/ledger.json"));
 
-  const auto session = open_session(options, context.log);
-  if (!session) return session.error();
-  GLOAM_TRY(ensure_baked(*session.value(), options, context.log, &context.console));
-  SessionCosts costs(*session.value(), options);
+  const std::uint64_t files = scene_files_hash(options.scene);
   const PictureFolder pictures(options.out + "/pictures");
   ConsoleProgress progress(context.console, pictures, options.quiet);
-  auto ledger = measure_costs(make_request(*session.value(), options, *chosen), costs, progress);
+  const auto measured = measure_cameras(options, *chosen, context, progress);
   context.console.show_progress("");
-  if (!ledger) return ledger.error();
-  GLOAM_TRY(session.value()->check_validation());
-  GLOAM_TRY(write_ledger(*ledger, options.out));
-  GLOAM_TRY(write_report(*ledger, options, session.value()->renderer->knobs(), pictures));
-  context.console.print(ledger_table(*ledger));
+  if (!measured) return measured.error();
+  const Ledger& ledger = measured->ledger;
+  if (scene_files_hash(options.scene) != files)
+    return Error{ErrorKind::input, options.scene + " changed while it was measured: no ledger is written; run again"};
+  GLOAM_TRY(write_ledger(ledger, options.out));
+  GLOAM_TRY(write_report(ledger, options, measured->knobs, pictures));
+  context.console.print(ledger_table(ledger));
   if (options.quiet) return {};
   if (progress.resumed() > 0)
-    context.console.print(std::to_string(progress.resumed()) + " of " + std::to_string(ledger->rows.size()) +
+    context.console.print(std::to_string(progress.resumed()) + " of " + std::to_string(progress.rows()) +
                           " rows were measured before\n");
   context.console.print("wrote " + options.out + "/report.html, ledger.json and ledger.csv\n");
   return {};

@@ -50,16 +50,16 @@ std::string merged_json(const MergedLedgers& merged) {
 
 std::string merged_csv(const MergedLedgers& merged) {
   const std::string columns = ledger_csv({});
-  std::string text = "group,name,scene,scene_hash,camera,width,height,host,device,driver,build," + columns;
+  std::string text = "group,name,scene,scene_hash,width,height,host,device,driver,build," + columns;
   for (std::size_t group = 0; group < merged.groups.size(); ++group) {
     for (const FoundLedger* found : merged.groups[group].ledgers) {
       const LedgerHeader& header = found->ledger.header;
       const std::string place = std::to_string(group + 1) + "," + csv_text(found->name) + csv_text(header.scene) +
-                                csv_text(header.scene_hash) + csv_text(header.camera) + std::to_string(header.width) +
-                                "," + std::to_string(header.height) + "," + csv_text(header.host) +
-                                csv_text(header.device) + csv_text(header.driver) + csv_text(header.build);
+                                csv_text(header.scene_hash) + std::to_string(header.width) + "," +
+                                std::to_string(header.height) + "," + csv_text(header.host) + csv_text(header.device) +
+                                csv_text(header.driver) + csv_text(header.build);
       for (const LedgerRow& row : found->ledger.rows)
-        text += place + ledger_csv({.header = {}, .rows = {row}, .skipped = {}}).substr(columns.size());
+        text += place + ledger_csv({.header = header, .rows = {row}, .skipped = {}}).substr(columns.size());
     }
   }
   return text;

@@ -45,13 +45,11 @@ constexpr const char* kCsvColumns =
     "knob,value,default,reference_kind,reference,reference_noise,below_noise,counted,counted_unit,wrong,flip_mean,flip_"
     "p99,rmse,"
     "rmse_p99,psnr_db,temporal_mean,temporal_p99,median_ms,p10_ms,p90_ms,cpu_ms,gpu_ms,module_cpu_ms,module_gpu_ms,"
-    "ratio,gpu_bytes,front,ratio_low,ratio_high,pairs,wall_ms,picture,no_effect\n";
+    "ratio,gpu_bytes,front,ratio_low,ratio_high,pairs,wall_ms,picture,no_effect,camera\n";
 
-}  // namespace
-
-std::string ledger_csv(const Ledger& ledger) {
-  std::string text = kCsvColumns;
-  for (const LedgerRow& row : ledger.rows) {
+std::string csv_rows(const std::vector<LedgerRow>& rows, const std::string& camera) {
+  std::string text;
+  for (const LedgerRow& row : rows) {
     CsvLine line;
     line.text(row.knob).text(row.value).flag(row.is_default);
     line.text(row.reference_kind).text(row.reference_name).number(row.reference_noise).flag(row.below_noise);
@@ -62,9 +60,17 @@ std::string ledger_csv(const Ledger& ledger) {
     line.number(row.module_cpu_ms).number(row.module_gpu_ms);
     line.number(row.ratio).integer(row.gpu_bytes).flag(row.on_front);
     line.number(row.ratio_low).number(row.ratio_high).integer(row.pairs).number(row.wall_ms);
-    line.text(row.picture).flag(row.no_effect);
+    line.text(row.picture).flag(row.no_effect).text(camera);
     text += line.finish();
   }
+  return text;
+}
+
+}  // namespace
+
+std::string ledger_csv(const Ledger& ledger) {
+  std::string text = kCsvColumns + csv_rows(ledger.rows, ledger.header.camera);
+  for (const CameraRows& camera : ledger.cameras) text += csv_rows(camera.rows, camera.camera);
   return text;
 }
 

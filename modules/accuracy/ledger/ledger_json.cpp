@@ -191,6 +191,11 @@ std::string ledger_json(const Ledger& ledger) {
   json["skipped"] = Json::array();
   for (const SkippedKnob& skipped : ledger.skipped)
     json["skipped"].push_back({{"knob", skipped.knob}, {"reason", skipped.reason}});
+  for (const CameraRows& camera : ledger.cameras) {
+    Json rows = Json::array();
+    for (const LedgerRow& row : camera.rows) rows.push_back(json_of(row));
+    json["cameras"].push_back({{"camera", camera.camera}, {"time_s", camera.time_s}, {"rows", std::move(rows)}});
+  }
   return dump(json, 2) + "\n";
 }
 
@@ -201,6 +206,12 @@ Result<Ledger> parse_ledger_json(std::string_view text) {
     for (const Json& row : json.at("rows")) ledger.rows.push_back(row_of(row));
     for (const Json& skipped : json.at("skipped"))
       ledger.skipped.push_back({skipped.at("knob").get<std::string>(), skipped.at("reason").get<std::string>()});
+    for (const Json& json_camera : json.value("cameras", Json::array())) {
+      CameraRows& camera = ledger.cameras.emplace_back();
+      camera.camera = json_camera.at("camera").get<std::string>();
+      camera.time_s = json_camera.at("time_s").get<double>();
+      for (const Json& row : json_camera.at("rows")) camera.rows.push_back(row_of(row));
+    }
     return ledger;
   });
   if (!parsed) return parsed.error();

@@ -122,6 +122,11 @@ std::string ledger_table(const Ledger& ledger) {
   for (const Line& line : lines) text += aligned(line, widths);
   text += judgements(ledger.rows);
   text += without_effect(ledger);
+  if (!ledger.cameras.empty())
+    text += formatted(
+        "errors, ratios and times are the worst of %zu cameras, each by itself; report.html has a table "
+        "of each camera\n",
+        ledger.cameras.size());
   for (const SkippedKnob& skipped : ledger.skipped) text += skipped.knob + ": not measured: " + skipped.reason + "\n";
   return text +
          "* no other value of the knob is as cheap and as right; = the default's picture and time; ratio to the "

@@ -29,6 +29,7 @@ std::string page_header(const ReportData& data) {
   if (!data.knobs.empty() && data.knobs.front().standard != nullptr)
     html += "A frame takes " + ms_text(data.knobs.front().standard->ms.median_ms) + " with the defaults. ";
   html += escaped(header.device) + formatted(", %u × %u pixels", header.width, header.height);
+  if (!data.ledger.cameras.empty()) html += formatted("; the worst of %zu cameras", data.ledger.cameras.size());
   if (header.quick) html += "; measured quickly, so errors and times are noisier";
   html +=
       ".</p>\n<nav aria-label=\"Sections\"><a href=\"#turn-down\">What to turn down</a> <a href=\"#effects\">Each "
@@ -55,6 +56,7 @@ std::string ledger_report(const Ledger& ledger, const ReportRequest& request) {
   html += savings_section(data);
   html += effects_section(data);
   html += look_section(data);
+  html += cameras_section(data);
   html += table_section(data);
   html += conditions_section(data);
   html += "</main>\n" + page_pictures(data) + "<script>\n";

@@ -17,6 +17,8 @@ namespace gloam {
 [[nodiscard]] std::string effects_section(const ReportData& data);
 /// Two pictures under a slider, the error and its worst areas.
 [[nodiscard]] std::string look_section(const ReportData& data);
+/// What the other sections show of several cameras, and a table of each. Empty for one camera.
+[[nodiscard]] std::string cameras_section(const ReportData& data);
 /// All rows.
 [[nodiscard]] std::string table_section(const ReportData& data);
 /// Device, clock, size, noise and command line.
