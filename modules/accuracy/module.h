@@ -76,10 +76,20 @@ class CostSubject {
                                                              std::uint32_t samples) = 0;
 };
 
+/// A row that is to be measured, for an estimate of the time left.
+struct PlannedRow {
+  std::string knob;
+  std::string value;
+  bool is_default = false;      ///< is drawn, but not timed
+  bool from_reference = false;  ///< has a reference of its module, which may take long
+};
+
 /// Callbacks for progress bars. `done` and `total` count rows.
 class CostProgress {
  public:
   virtual ~CostProgress() = default;
+  /// All rows, in the order in which finished() tells of them.
+  virtual void plan(const std::vector<PlannedRow>& /*rows*/) {}
   virtual void measuring(const std::string& knob, const std::string& value, std::size_t done, std::size_t total) = 0;
   /// `resumed`: the row was found in the folder and nothing was drawn.
   virtual void finished(const LedgerRow& row, bool resumed) = 0;

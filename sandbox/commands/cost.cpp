@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
 #include <chrono>
+#include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "engine/core/processor_time.h"
 #include "engine/core/text/formatted.h"
@@ -16,6 +18,7 @@
 #include "sandbox/output/identity.h"
 #include "sandbox/output/pictures/picture_folder.h"
 #include "sandbox/output/progress_bar.h"
+#include "sandbox/output/time_left.h"
 #include "sandbox/session/baking/captures.h"
 #include "sandbox/session/drawing/session_costs.h"
 #include "sandbox/session/loading/scene_files.h"
@@ -31,10 +34,19 @@ class ConsoleProgress final : public CostProgress {
   ConsoleProgress(Console& console, const PictureFolder& pictures, bool quiet)
       : console_(console), pictures_(pictures), quiet_(quiet) {}
 
+  void plan(const std::vector<PlannedRow>& rows) override {
+    std::vector<std::string> kinds;
+    for (const PlannedRow& row : rows)
+      kinds.push_back(std::string(row.is_default ? "default" : "timed") + (row.from_reference ? ", reference" : ""));
+    left_.plan(std::move(kinds));
+  }
+
   void measuring(const std::string& knob, const std::string& value, std::size_t done, std::size_t total) override {
-    if (measured_ == 0) begin_ = Clock::now();
-    const double elapsed_s = std::chrono::duration<double>(Clock::now() - begin_).count();
-    if (!quiet_) console_.show_progress(progress_line(done, total, knob + "=" + value, measured_, elapsed_s));
+    begin_ = Clock::now();
+    if (quiet_) return;
+    const std::string camera = cameras_ > 1 ? formatted("camera %zu of %zu, ", camera_ + 1, cameras_) : std::string();
+    const std::string row = knob + "=" + value + time_left_text(left_.seconds());
+    console_.show_progress(progress_line(done, total, camera + row, 0, 0.0));
   }
 
   Status picture(const std::string& name, const Picture& picture) override { return pictures_.save(name, picture); }
@@ -42,11 +54,14 @@ class ConsoleProgress final : public CostProgress {
 
   void finished(const LedgerRow& row, bool resumed) override {
     ++(resumed ? resumed_ : measured_);
+    const double took_s = std::chrono::duration<double>(Clock::now() - begin_).count();
+    left_.finished(resumed ? std::nullopt : std::optional(took_s));
     if (quiet_ || console_.shows_progress()) return;
     const std::string times = row.is_default ? std::string(": the default")
                                              : formatted(": %.2f (%.2f-%.2f) of the default's time, %u pairs of frames",
                                                          row.ratio, row.ratio_low, row.ratio_high, row.pairs);
-    console_.print(row.knob + "=" + row.value + times + (resumed ? " (measured before)" : "") + "\n");
+    console_.print(row.knob + "=" + row.value + times +
+                   (resumed ? " (measured before)" : time_left_text(left_.seconds())) + "\n");
     // Flush, so that the reader of a pipe gets the line at once. A failure to write is reported at the end.
     static_cast<void>(console_.flush());
   }
@@ -73,7 +88,8 @@ class ConsoleProgress final : public CostProgress {
   std::size_t resumed_ = 0;
   std::size_t camera_ = 0;
   std::size_t cameras_ = 1;
-  Clock::time_point begin_;
+  Clock::time_point begin_;  ///< of the row that is measured
+  TimeLeft left_;
 };
 
 KnobRegistry knobs_of(const ModuleList& modules) {

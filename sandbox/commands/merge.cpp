@@ -85,8 +85,8 @@ Status run_merge(const CommandContext& context) {
   std::size_t ledgers = 0;
   for (const LedgerGroup& group : merged.groups) ledgers += group.ledgers.size();
   context.console.print(std::to_string(ledgers) + " ledgers in " + std::to_string(merged.groups.size()) +
-                        " groups of one host, device and build\nwrote " + out +
-                        "/index.html, sweep.json and sweep.csv\n");
+                        (merged.groups.size() == 1 ? " group" : " groups") + " of one host, device and build\nwrote " +
+                        out + "/index.html, sweep.json and sweep.csv\n");
   return {};
 }
 

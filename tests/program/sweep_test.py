@@ -86,7 +86,7 @@ class Sweep(SweepCase):
         for folder in ("whole", "sharded"):
             run = self.expect(0, "cost", "--merge", folder, "--out", f"all/{folder}")
             self.assertEqual(run.stderr, "")
-            self.assertIn("4 ledgers in 1 groups", run.stdout)
+            self.assertIn("4 ledgers in 1 group ", run.stdout)
         whole, sharded = (self.read_json(f"all/{folder}/sweep.json") for folder in ("whole", "sharded"))
         self.assertEqual(self.errors(sharded), self.errors(whole))
         self.assertEqual(len(self.errors(whole)), 8)

@@ -21,7 +21,7 @@ namespace {
 constexpr std::int32_t kSettlingFrames = 3;
 
 /// Version of metrics and protocol: rows stored under another version are measured again.
-constexpr int kMethod = 6;
+constexpr int kMethod = 7;
 
 std::string exact_text(double value) { return formatted("%.17g", value); }
 

@@ -17,7 +17,9 @@ class LedgerRun {
  public:
   LedgerRun(const CostRequest& request, CostSubject& subject, CostProgress& progress)
       : request_(request), subject_(subject), progress_(progress), store_(request.folder + "/measurements") {
-    for (const std::string& name : request.knobs) total_ += ledger_values(knob(name)).size();
+    const std::vector<PlannedRow> rows = planned_rows();
+    total_ = rows.size();
+    progress_.plan(rows);
   }
 
   [[nodiscard]] Status measure(const std::string& name) {
@@ -50,6 +52,18 @@ class LedgerRun {
     const Knob* found = subject_.knobs().find(name);
     GLOAM_ASSERT(found != nullptr, "a measured knob exists");
     return *found;
+  }
+
+  [[nodiscard]] std::vector<PlannedRow> planned_rows() const {
+    const std::vector<ReferenceInfo> references = subject_.references();
+    std::vector<PlannedRow> rows;
+    for (const std::string& name : request_.knobs) {
+      const std::string standard = value_text(knob(name), knob(name).default_number);
+      const bool from_reference = std::ranges::find(references, name, &ReferenceInfo::knob) != references.end();
+      for (const std::string& value : ledger_values(knob(name)))
+        rows.push_back({name, value, value == standard, from_reference});
+    }
+    return rows;
   }
 
   [[nodiscard]] Status add(KnobMeasurement& measurement, const std::string& name, const std::string& value,

@@ -51,9 +51,23 @@ Result<AlternatingTimes> time_alternating(const TimingPlan& plan, const RunFrame
   AlternatingTimes times;
   for (const TimedSide side : {TimedSide::standard, TimedSide::candidate})
     GLOAM_TRY(run_side(run, side, plan.first_warm_up, nullptr));
+  // A pair begins with the side that the last one ended with: one change of side a pair, and one warm-up.
+  bool standard_first = false;
   do {
-    GLOAM_TRY(run_side(run, TimedSide::standard, plan.warm_up, &times.standard));
-    GLOAM_TRY(run_side(run, TimedSide::candidate, plan.warm_up, &times.candidate));
+    const auto standard = [&](std::uint32_t left_out) {
+      return run_side(run, TimedSide::standard, left_out, &times.standard);
+    };
+    const auto candidate = [&](std::uint32_t left_out) {
+      return run_side(run, TimedSide::candidate, left_out, &times.candidate);
+    };
+    if (standard_first) {
+      GLOAM_TRY(standard(0));
+      GLOAM_TRY(candidate(plan.warm_up));
+    } else {
+      GLOAM_TRY(candidate(0));
+      GLOAM_TRY(standard(plan.warm_up));
+    }
+    standard_first = !standard_first;
   } while (times.candidate.size() < plan.most_pairs && !known_well(plan, times));
   return times;
 }

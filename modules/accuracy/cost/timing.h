@@ -33,7 +33,7 @@ struct AlternatingTimes {
 /// Applies the knob value of a side, if the last call was for the other side, and draws one frame.
 using RunFrame = std::function<Result<FrameCost>(TimedSide)>;
 
-/// Alternates the sides (A, B, A, B …), so that a drift of the machine's speed affects both, until the ratio is known
+/// Alternates the sides (B A, A B, B A …), so that a drift of the machine's speed affects both, until the ratio is known
 /// well enough.
 [[nodiscard]] Result<AlternatingTimes> time_alternating(const TimingPlan& plan, const RunFrame& run);
 
