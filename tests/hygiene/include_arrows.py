@@ -71,7 +71,7 @@ ROOMS = {
     "sandbox/play": (("input", "display", "start"), ()),
     "sandbox/bench": (("harness", "ecs", "jobs", "frame", "lights", "shadows", "closeups", "reflections", "grass",
                        "particles", "dof", "papers"), ()),
-    "sandbox": (("output", "scenes", "session", "window", "play", "bench", "commands"), ("options", "console", "log")),
+    "sandbox": (("output", "scenes", "session", "sweep", "window", "play", "bench", "commands"), ("options", "console", "log")),
     "shaders/shadows": (("maps", "filter", "final_lists", "debug"), None),
     "shaders/grass": (("lod", "simulation", "drawing", "debug"), None),
     "shaders/particles": (("simulation", "sorting", "lighting", "drawing", "debug"), None),

@@ -104,7 +104,6 @@ Result<TimedRow> KnobMeasurement::measure(const std::string& value) {
   TimedRow measured = {.row = {.knob = knob_.name, .value = value, .is_default = value == default_}};
   LedgerRow& row = measured.row;
   GLOAM_TRY(judge(value, row));
-  GLOAM_TRY(set(value));
   if (!row.is_default) {
     auto times = time(value);
     if (!times) return times.error();
@@ -112,6 +111,7 @@ Result<TimedRow> KnobMeasurement::measure(const std::string& value) {
     row.pairs = static_cast<std::uint32_t>(times->candidate.size());
     measured.standard = std::move(times->standard);
   }
+  GLOAM_TRY(set(value));
   const auto bytes = subject_.gpu_bytes();
   if (!bytes) return bytes.error();
   row.gpu_bytes = *bytes;

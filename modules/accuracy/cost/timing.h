@@ -33,8 +33,8 @@ struct AlternatingTimes {
 /// Applies the knob value of a side, if the last call was for the other side, and draws one frame.
 using RunFrame = std::function<Result<FrameCost>(TimedSide)>;
 
-/// Alternates the sides (B A, A B, B A …), so that a drift of the machine's speed affects both, until the ratio is known
-/// well enough.
+/// Alternates the sides (B A, A B, B A …), so that a drift of the machine's speed affects both, until the ratio is
+/// known well enough.
 [[nodiscard]] Result<AlternatingTimes> time_alternating(const TimingPlan& plan, const RunFrame& run);
 
 /// Of values that change nothing, one in twenty would lie outside a 95 % interval, and there are a hundred in a ledger.
