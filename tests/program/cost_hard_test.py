@@ -111,7 +111,7 @@ class CostHard(ProgramCase):
     def test_the_default_takes_the_same_memory_whatever_was_drawn_before(self):
         """Each knob measured alone, so that no row's memory is taken from another's."""
         memory = {}
-        for knobs in ("shadows.atlas", "shadows.filter", "shadows.mode", "lights.culling", "shadows.mode,shadows.atlas,lights.culling"):
+        for knobs in ("lighting.tone_map", "shadows.atlas", "shadows.filter", "shadows.mode", "lights.culling", "shadows.mode,shadows.atlas,lights.culling"):
             self.expect(0, "cost", "builtin:shadows", "--quick", "--size", "64x36", "--knobs", knobs, "--out", knobs, "--quiet")
             rows = self.read_json(knobs + "/ledger.json")["rows"]
             memory[knobs] = {row["gpu_bytes"] for row in rows if row["default"]}

@@ -48,7 +48,15 @@ std::vector<MeasureInfo> SessionCosts::measures() const {
   return all;
 }
 
+Status SessionCosts::settle_session() {
+  settled_ = true;
+  constexpr std::int32_t kFrames = 130;  // twice the frames after which the frame graph frees unused memory
+  for (std::int32_t index = 0; index < kFrames; ++index) GLOAM_TRY(draw(index));
+  return {};
+}
+
 Result<FrameCost> SessionCosts::draw(std::int32_t index) {
+  if (!settled_) GLOAM_TRY(settle_session());
   session_.set_clock(options_.time_s + index * options_.dt_s, options_.dt_s);
   const double begin_ms = processor_time_ms();
   const auto sample = session_.render_frame(request_);

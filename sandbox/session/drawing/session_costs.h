@@ -29,6 +29,9 @@ class SessionCosts final : public CostSubject {
                                                      std::uint32_t samples) override;
 
  private:
+  /// Draws frames as the timing of a row does, until what a session's first frames need is freed. Without that the
+  /// first rows have more memory than later rows of the same settings.
+  [[nodiscard]] Status settle_session();
   /// Draws the last frame again after `change` has modified the world, then calls `restore`.
   [[nodiscard]] Result<FramePictures> redraw(const std::function<void(World&)>& change,
                                              const std::function<void(World&)>& restore);
@@ -38,6 +41,7 @@ class SessionCosts final : public CostSubject {
   ViewRequest request_;
   std::unique_ptr<ReferenceStore> store_;
   std::int32_t index_ = 0;  ///< index of the last frame
+  bool settled_ = false;    ///< memory that only a session's first frames need is free
 };
 
 }  // namespace gloam
