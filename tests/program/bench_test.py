@@ -69,6 +69,8 @@ class Bench(ProgramCase):
         for percent in (0, 25, 50, 100):
             share = rows[f"shadows.exposure.share.{percent}.shadowed"]
             self.assertAlmostEqual(share, percent / 100, delta=0.05, msg=percent)
+        for side in (256, 512, 1024, 2048):
+            self.assertGreater(rows[f"shadows.exposure.map.{side}.shadowed"], 0.98, side)
 
     def test_a_failing_row_leaves_the_rows_before_it(self):
         run = self.expect(NO_DEVICE, "bench", "jobs.fork_join", "frame.scene", "--json", "rows.json",

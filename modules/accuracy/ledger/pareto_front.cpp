@@ -16,7 +16,9 @@ bool same_picture(const LedgerRow& a, const LedgerRow& b) { return !a.picture.em
 
 /// Intervals, not medians: a difference inside them is chance.
 bool significantly_cheaper(const LedgerRow& a, const LedgerRow& b) {
-  return same_picture(a, b) ? a.sure_high < b.sure_low : a.ratio_high < b.ratio_low;
+  if (!same_picture(a, b)) return a.ratio_high < b.ratio_low;
+  constexpr double kResolution_ms = 0.03;  // of processor time: frames of the same work differ by as much
+  return a.sure_high < b.sure_low && b.ms.median_ms - a.ms.median_ms > kResolution_ms;
 }
 
 bool significantly_righter(const LedgerRow& a, const LedgerRow& b) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -45,20 +46,26 @@ struct Exposure {
   std::uint64_t hash = 0;
 };
 
-/// Replaces the scene's sheet by bars over a share of the picture, and returns the lamp.
+/// Replaces the scene's sheet by bars over a share of the picture, and narrows the lamp's cone. Returns the lamp.
 Entity lay_bars(Session& session, double share, double aspect) {
   constexpr std::uint32_t kSheetMesh = 1;  // after the floor
   Entity sheet = kNoEntity, lamp = kNoEntity;
   session.world.view<const MeshInstance>().each([&](Entity entity, const MeshInstance& mesh) {
     if (mesh.mesh == kSheetMesh) sheet = entity;
   });
-  session.world.view<const Light>().each([&](Entity entity, const Light&) { lamp = entity; });
+  session.world.view<Light>().each([&](Entity entity, Light& light) {
+    lamp = entity;
+    // Just wider than the picture: a texel of the smallest map is a fifth of a bar.
+    light.inner_angle = 0.075f;
+    light.outer_angle = 0.08f;
+  });
   session.world.destroy(sheet);
   if (share <= 0.0) return lamp;
   SceneBuilder builder(session.world, session.info);
   const std::uint32_t wood = builder.add_material({.name = "bars", .metallic = 0.0f, .roughness = 0.9f});
   const std::uint32_t bar = builder.add_mesh("bar", box_shape({0.02f, 0.01f, 3.0f}), wood);
-  // Shadows on the floor are wider than the bars, as both are seen from the lamp. To the left, one lamp's width more.
+  // Shadows on the floor are wider than the bars, as both are seen from the lamp. Beyond the picture's sides, a
+  // picture's width more.
   const double width = 2.0 * kEye_m * std::tan(0.5 * kFieldOfView) * aspect;
   const double grow = kPenumbraLampHeight_m / (kPenumbraLampHeight_m - kBars_m);
   const double first = -width, last = (share - 0.5) * width / grow + (share < 1.0 ? 0.0 : width);
@@ -76,7 +83,7 @@ Result<Exposure> measure_exposure(BenchContext& context, double share, std::uint
   ShadowCase shadows(session, options.width, options.height);
   // Straight down: the camera's -Z is the world's -Y.
   const dmat4 down =
-      glm::rotate(glm::translate(dmat4(1.0), dvec3(0.0, kEye_m, 0.0)), -0.5 * 3.14159265358979, dvec3(1.0, 0.0, 0.0));
+      glm::rotate(glm::translate(dmat4(1.0), dvec3(0.0, kEye_m, 0.0)), -0.5 * std::numbers::pi, dvec3(1.0, 0.0, 0.0));
   shadows.look_from(down);
   Exposure exposure;
   for (int round = -kExposureWarmUp; round < kExposureRounds; ++round) {

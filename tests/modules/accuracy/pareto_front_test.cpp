@@ -16,6 +16,7 @@ LedgerRow point(const std::string& knob, double error, double ratio, double spre
   row.ratio = ratio;
   row.ratio_low = ratio - spread;
   row.ratio_high = ratio + spread;
+  row.ms.median_ms = 10.0 * ratio;
   row.sure_low = ratio - 1.5 * spread;
   row.sure_high = ratio + 1.5 * spread;
   return row;
@@ -147,6 +148,16 @@ TEST(pareto_front, agrees_with_brute_force) {
       EXPECT_EQ(front[i], !beaten);
     }
   }
+}
+
+TEST(pareto_front, a_difference_that_the_clock_cannot_resolve_is_none) {
+  std::vector<LedgerRow> rows = {point("a", 0.1, 0.9, 0.02), point("a", 0.1, 1.0)};
+  for (LedgerRow& row : rows) row.picture = "same";
+  rows[1].is_default = true;
+  for (LedgerRow& row : rows) row.ms.median_ms = 0.2 * row.ratio;
+  EXPECT_EQ(front_of(rows), (std::vector<bool>{false, false}));
+  for (LedgerRow& row : rows) row.ms.median_ms = 0.4 * row.ratio;
+  EXPECT_EQ(front_of(rows), (std::vector<bool>{true, false}));
 }
 
 }  // namespace
