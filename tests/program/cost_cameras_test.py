@@ -54,6 +54,7 @@ class CostCameras(ProgramCase):
             lines = list(csv.DictReader(file))
         self.assertEqual([line["camera"] for line in lines], [name for name in ("dark,lit", "dark", "lit") for _ in worst])
         page = (self.folder / "both/report.html").read_text()
+        self.assertIn('<a href="#cameras">', page)
         self.assertIn("Camera dark at 0 s", page)
         self.assertIn("the worst of 2 cameras", page)
 

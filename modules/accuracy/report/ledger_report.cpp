@@ -33,8 +33,9 @@ std::string page_header(const ReportData& data) {
   if (header.quick) html += "; measured quickly, so errors and times are noisier";
   html +=
       ".</p>\n<nav aria-label=\"Sections\"><a href=\"#turn-down\">What to turn down</a> <a href=\"#effects\">Each "
-      "effect</a> <a href=\"#look\">Look</a> <a href=\"#everything\">Everything</a> <a "
-      "href=\"#conditions\">Conditions</a></nav>\n";
+      "effect</a> <a href=\"#look\">Look</a> ";
+  if (!data.ledger.cameras.empty()) html += "<a href=\"#cameras\">Cameras</a> ";
+  html += "<a href=\"#everything\">Everything</a> <a href=\"#conditions\">Conditions</a></nav>\n";
   return html + "</header>\n";
 }
 
