@@ -82,6 +82,13 @@ class CloseupsModule final : public Module {
       references.push_back(traced_shadows(std::string(knob)));
     return references;
   }
+  [[nodiscard]] std::string idle_knob(const World&, const RenderView&, std::string_view knob,
+                                      const FrameCounters& counters) const override {
+    const auto pairs = counters.find("closeups.pairs");
+    if (pairs == counters.end()) return {};
+    if (pairs->second <= 0.0) return "no close-up pair has a map";
+    return knob == kCloseupBatch.name && pairs->second < 2.0 ? "one close-up pair is in view" : "";
+  }
   void add_systems(Schedule& schedule) override { add_closeup_systems(schedule); }
   [[nodiscard]] std::vector<VisualizerInfo> visualizers() const override { return closeup_visualizers(); }
   void scene_keys(KeyRegistry& registry) const override {

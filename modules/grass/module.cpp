@@ -20,6 +20,7 @@
 #include "modules/grass/field/metres.h"
 #include "modules/grass/grass_passes.h"
 #include "modules/grass/keys.h"
+#include "modules/grass/reference/tip_distance.h"
 #include "modules/grass/simulation/colliders.h"
 #include "modules/grass/simulation/simulate_blades_pass.h"
 #include "modules/lights/components.h"
@@ -96,6 +97,17 @@ class GrassModule final : public Module {
     world.ensure_resource<GrassWorld>();
   }
   void knobs(KnobRegistry& registry) const override { add_grass_knobs(registry); }
+  [[nodiscard]] std::vector<ReferenceInfo> references() const override { return tip_references(); }
+  [[nodiscard]] std::string idle_knob(const World& world, const RenderView& view, std::string_view knob,
+                                      const FrameCounters&) const override {
+    const bool moves = knob == kGrassIterations.name || knob == kGrassReadback.name || knob == kGrassThreads.name;
+    if (moves && world.view<const Wind>().size() == 0 && world.view<const Collider>().size() == 0)
+      return "neither wind nor a collider moves the grass";
+    const auto* visible = world.try_view_resource<VisiblePatches>(view.id);
+    if (knob == kGrassCastDistance.name && visible != nullptr && !visible->cast)
+      return "no light that reaches the view casts shadows";
+    return {};
+  }
   void scene_keys(KeyRegistry& registry) const override { add_grass_keys(registry); }
   [[nodiscard]] Demand demand(const World& world, const RenderView* view) const override {
     std::size_t surfaces = 0;

@@ -126,9 +126,8 @@ std::vector<ReferenceInfo> shadow_references() {
   KnobRegistry registry;
   add_shadow_knobs(registry);
   // Knobs without this reference: mode and visibility_bits have an exact value, classify has a measure
-  // (shadow_measures()), and limits have no right value.
-  constexpr std::string_view kOthers[] = {kShadowMode.name, kShadowClassify.name, kVisibilityLevels.name,
-                                          kShadowSlotLimit.name, kShadowPairLimit.name};
+  // (shadow_measures()).
+  constexpr std::string_view kOthers[] = {kShadowMode.name, kShadowClassify.name, kVisibilityLevels.name};
   std::vector<ReferenceInfo> references;
   for (const Knob& knob : registry.knobs()) {
     if (std::find(std::begin(kOthers), std::end(kOthers), knob.name) != std::end(kOthers)) continue;

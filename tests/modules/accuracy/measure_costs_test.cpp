@@ -35,13 +35,16 @@ constexpr IntegerKnob<std::uint32_t> kSamples{.name = "fake.samples",
 constexpr OnOffKnob kCount{.name = "fake.count", .meaning = ""};
 
 /// A fake renderer: "samples" makes the picture brighter by 1/samples and costs that many milliseconds; no value of
-/// "look" is more right than another.
+/// "look" is more right than another. Of three methods, "c" draws another picture.
 class FakeSubject final : public CostSubject {
  public:
   FakeSubject() {
     knobs_.add(declaration_of(kSamples, "fake"));
     knobs_.add({.name = "fake.look", .module = "fake", .choices = {"warm", "cold"}});
     knobs_.add(declaration_of(kCount, "fake"));
+    knobs_.add({.name = "fake.taste", .module = "fake", .choices = {"warm", "cold"}, .taste = "a look"});
+    knobs_.add(
+        {.name = "fake.method", .module = "fake", .choices = {"a", "b", "c"}, .exact = "a", .same_picture = true});
   }
 
   [[nodiscard]] KnobRegistry& knobs() override { return knobs_; }
@@ -68,10 +71,16 @@ class FakeSubject final : public CostSubject {
     return reference(frame, samples);
   }
 
+  [[nodiscard]] Result<std::optional<MovedDistance>> measure_distance(const ReferenceInfo&) override {
+    return distance ? distance(brightness()) : std::nullopt;
+  }
+  [[nodiscard]] std::string no_effect_reason(const Knob& knob) override { return reasons[knob.name]; }
+
   [[nodiscard]] double brightness() const {
     const double error = 1.0 / knobs_.value(kSamples);
     // The exact value does not flicker; the others do.
-    return 0.25 + (knobs_.value(kSamples) == 64 ? 0.0 : error * (index_ % 2 == 0 ? 0.5 : 0.25));
+    const double wrong = knobs_.text(*knobs_.find("fake.method")) == "c" ? 0.01 : 0.0;
+    return 0.25 + wrong + (knobs_.value(kSamples) == 64 ? 0.0 : error * (index_ % 2 == 0 ? 0.5 : 0.25));
   }
   static FramePictures pictures(double brightness) {
     const auto encoded = static_cast<std::uint8_t>(std::lround(255.0 * brightness));
@@ -88,6 +97,8 @@ class FakeSubject final : public CostSubject {
   std::vector<ReferenceInfo> references_;
   std::vector<MeasureInfo> measures_;
   std::function<Result<FramePictures>(const FramePictures&, std::uint32_t)> reference;
+  std::function<std::optional<MovedDistance>(double brightness)> distance;
+  std::map<std::string, std::string> reasons;
 
  private:
   KnobRegistry knobs_;
@@ -219,6 +230,74 @@ TEST_F(MeasureCosts, a_knob_that_changes_nothing_has_no_effect) {
   request_.knobs = {"fake.samples"};
   ledger = measure();
   for (const LedgerRow& row : ledger.rows) EXPECT_EQ(row.no_effect, row.is_default) << row.value;
+}
+
+TEST_F(MeasureCosts, a_knob_that_changes_nothing_says_why) {
+  request_.knobs = {"fake.count"};
+  request_.header.frames = 8;
+  subject_.reasons["fake.count"] = "nothing is counted";
+  const Ledger ledger = measure();
+  EXPECT_EQ(ledger.rows[0].no_effect_reason, "nothing is counted");
+  EXPECT_EQ(ledger.rows[1].no_effect_reason, "") << "only the default's row";
+  EXPECT_THAT(ledger_table(ledger), HasSubstr("fake.count: no effect here: nothing is counted; the pictures of all"));
+  EXPECT_THAT(ledger_report(ledger, {}), HasSubstr("nothing is counted"));
+}
+
+TEST_F(MeasureCosts, a_taste_has_its_reason_in_place_of_errors) {
+  request_.knobs = {"fake.taste"};
+  const Ledger ledger = measure();
+  for (const LedgerRow& row : ledger.rows) {
+    EXPECT_EQ(row.no_reference, "a look");
+    EXPECT_FALSE(row.error() || row.flip || row.on_front) << row.value;
+  }
+  EXPECT_THAT(ledger_table(ledger), HasSubstr("fake.taste: no reference: a look\n"));
+}
+
+TEST_F(MeasureCosts, a_method_with_another_picture_is_wrong) {
+  request_.knobs = {"fake.method"};
+  Ledger ledger = measure();
+  ASSERT_EQ(ledger.rows.size(), 3u);
+  EXPECT_EQ(ledger.rows[0].wrong, "");
+  EXPECT_EQ(ledger.rows[1].wrong, "");
+  EXPECT_EQ(ledger.rows[2].wrong, "its picture is not equal to the bit to that of fake.method=a");
+  EXPECT_THAT(ledger_table(ledger), HasSubstr("! fake.method=c is wrong"));
+  // By a measure, too, and a fault of the measure comes first.
+  subject_.measures_ = {{.knob = "fake.method",
+                         .kind = "brute force",
+                         .name = "all",
+                         .picture = {{"fake.method", "b"}},
+                         .error = [](const FrameCounters&, const FrameCounters&) { return std::nullopt; },
+                         .fault = [](const FrameCounters&) { return std::string(); }}};
+  request_.conditions = "another";
+  ledger = measure();
+  EXPECT_EQ(ledger.rows[1].wrong, "");
+  EXPECT_EQ(ledger.rows[2].wrong, "its picture is not equal to the bit to that of all");
+  EXPECT_GT(*ledger.rows[2].error(), 0.0) << "without a count, that of the picture";
+}
+
+TEST_F(MeasureCosts, a_distance_is_the_error_and_pictures_are_judged_by_the_exact_value) {
+  judge_by({.knob = "fake.samples",
+            .kind = "double precision",
+            .name = "finer",
+            .distance = [](const ReferenceInput&) { return std::optional<MovedDistance>(); },
+            .unit = "mm"});
+  subject_.distance = [](double brightness) { return MovedDistance{brightness, 2.0 * brightness}; };
+  Ledger ledger = measure();
+  ASSERT_EQ(ledger.rows.size(), 4u);
+  for (const LedgerRow& row : ledger.rows) {
+    EXPECT_EQ(row.reference_kind, "double precision");
+    EXPECT_EQ(row.reference_name, "finer; pictures against fake.samples=64");
+    ASSERT_TRUE(row.counted && row.flip);
+    const double expected = 0.25 + (row.value == "64" ? 0.0 : 0.5 / std::stod(row.value));
+    EXPECT_EQ(*row.counted, (CountedError{expected, "mm", 2.0 * expected})) << "of the frame with the row's value";
+    EXPECT_EQ(row.error(), expected);
+  }
+  EXPECT_THAT(ledger_table(ledger), HasSubstr("0.750, p99 1.500"));
+  EXPECT_THAT(ledger_report(ledger, {}), HasSubstr("0.750 (p99 1.50) mm"));
+  subject_.distance = [](double) { return std::nullopt; };
+  request_.conditions = "another";
+  ledger = measure();
+  for (const LedgerRow& row : ledger.rows) EXPECT_FALSE(row.counted) << "nothing to measure";
 }
 
 TEST_F(MeasureCosts, leaves_the_users_value_and_tells_progress) {
