@@ -53,8 +53,8 @@ class KnobMeasurement {
   [[nodiscard]] Result<Drawn> draw();
   [[nodiscard]] Result<Drawn> draw(const std::string& value);
   [[nodiscard]] Status judge(const std::string& value, LedgerRow& row);
-  /// Whether the module's reference is pictures, not only a distance.
-  [[nodiscard]] bool draws_reference() const { return reference_ && reference_->draw; }
+  /// Whether the module has a reference that is pictures, not only a distance.
+  [[nodiscard]] bool draws_reference() const { return reference_ && (reference_->draw || !reference_->distance); }
   /// Sets row.counted if the module's reference has a distance. The last frame is that of the row's value.
   [[nodiscard]] Status judge_distance(LedgerRow& row);
   /// Marks the row wrong if its picture must be that of the reference and is not. The row has its picture.

@@ -537,11 +537,14 @@ TEST_F(MeasureCosts, values_of_a_ledger_hold_the_default_and_the_exact_one_once)
 
 TEST_F(MeasureCosts, knobs_are_chosen_by_name) {
   const KnobRegistry& knobs = subject_.knobs();
-  EXPECT_THAT(*choose_knobs(knobs, ""), ElementsAre("fake.samples", "fake.look", "fake.count"));
+  EXPECT_THAT(*choose_knobs(knobs, ""),
+              ElementsAre("fake.samples", "fake.look", "fake.count", "fake.taste", "fake.method"));
   EXPECT_THAT(*choose_knobs(knobs, "fake.look,fake.samples,fake.look"), ElementsAre("fake.look", "fake.samples"));
-  EXPECT_THAT(*choose_knobs(knobs, "fake.*"), ElementsAre("fake.samples", "fake.look", "fake.count"));
+  EXPECT_THAT(*choose_knobs(knobs, "fake.*"),
+              ElementsAre("fake.samples", "fake.look", "fake.count", "fake.taste", "fake.method"));
   EXPECT_THAT(*choose_knobs(knobs, "*.look,f*s"), ElementsAre("fake.look", "fake.samples"));
-  EXPECT_THAT(*choose_knobs(knobs, "*"), ElementsAre("fake.samples", "fake.look", "fake.count"));
+  EXPECT_THAT(*choose_knobs(knobs, "*"),
+              ElementsAre("fake.samples", "fake.look", "fake.count", "fake.taste", "fake.method"));
   EXPECT_THAT(*choose_knobs(knobs, "fake.**t"), ElementsAre("fake.count"));
   EXPECT_FALSE(choose_knobs(knobs, "fake.samples*s").ok()) << "no character stands for two";
   for (const char* list : {"nope", "fog.*", "*.loo", "ake*", "fake.look,", ",fake.look", "fake.look,,fake.samples",
