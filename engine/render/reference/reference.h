@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "engine/core/result.h"
 #include "engine/ecs/world.h"
@@ -80,6 +81,8 @@ struct ReferenceInfo {
   std::string name;            ///< name for the ledger: "tone curve on the CPU"
   bool follows_value = false;  ///< see above
   bool samples = false;        ///< uses ReferenceInput::samples; its noise is the change from half of them to all
+  /// Knobs of the frame that a reference with `follows_value` false is computed from, and of the frames that it draws.
+  std::vector<KnobOverride> drawn_with = {};
   /// Empty: pictures are judged by Knob::exact, and `distance` is set.
   std::function<Result<FramePictures>(const ReferenceInput&)> draw;
   /// An error beside that of the pictures, for each value, from its frame; none if the frame has nothing to measure.

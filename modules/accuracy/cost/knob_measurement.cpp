@@ -197,7 +197,10 @@ Status KnobMeasurement::compare(const NoisyReference& reference, const FramePict
 }
 
 Status KnobMeasurement::draw_common_reference() {
-  auto drawn = draw(draws_reference() ? default_ : knob_.exact);
+  GLOAM_TRY(set(draws_reference() ? default_ : knob_.exact));
+  KnobOverrides overrides(subject_.knobs());
+  if (draws_reference()) GLOAM_TRY(overrides.set(reference_->drawn_with));
+  auto drawn = draw();
   if (!drawn) return drawn.error();
   if (!draws_reference()) {
     exact_sequence_ = std::move(drawn->sequence);

@@ -300,6 +300,23 @@ TEST_F(MeasureCosts, a_distance_is_the_error_and_pictures_are_judged_by_the_exac
   for (const LedgerRow& row : ledger.rows) EXPECT_FALSE(row.counted) << "nothing to measure";
 }
 
+TEST_F(MeasureCosts, a_reference_is_drawn_with_its_own_knobs) {
+  judge_by({.knob = "fake.look",
+            .kind = "accumulated",
+            .name = "finest",
+            .drawn_with = {{"fake.samples", "64"}, {"fake.look", "cold"}}});
+  std::vector<std::string> looks;
+  subject_.reference = [&](const FramePictures& frame, std::uint32_t) -> Result<FramePictures> {
+    looks.push_back(subject_.knobs().text(*subject_.knobs().find("fake.look")));
+    return frame;
+  };
+  request_.knobs = {"fake.look"};
+  const Ledger ledger = measure();
+  EXPECT_THAT(looks, ElementsAre("cold")) << "while the reference draws, too";
+  for (const LedgerRow& row : ledger.rows) EXPECT_NEAR(*row.rmse, 0.125, 1e-6) << "of four samples against 64";
+  EXPECT_EQ(subject_.knobs().value(kSamples), 4u) << "put back";
+}
+
 TEST_F(MeasureCosts, leaves_the_users_value_and_tells_progress) {
   ASSERT_TRUE(subject_.knobs().set("fake.samples", "7").ok());
   static_cast<void>(measure());
