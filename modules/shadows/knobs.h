@@ -125,7 +125,6 @@ inline constexpr ChoiceKnob<std::uint32_t> kVisibilityLevels{
     .meaning = "bits of a stored visibility, for each pixel and light; exact: not rounded",
     .choices = {{"4", 15}, {"8", 255}, {"exact", 0}},
     .default_value = 255,
-    .exact = 0,
     .only_with = "shadows.mode=deferred"};
 inline constexpr ChoiceKnob<std::uint32_t> kShadowAtlas{
     .name = "shadows.atlas",
