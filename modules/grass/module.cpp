@@ -23,7 +23,7 @@
 #include "modules/grass/reference/tip_distance.h"
 #include "modules/grass/simulation/colliders.h"
 #include "modules/grass/simulation/simulate_blades_pass.h"
-#include "modules/lighting/reference.h"
+#include "modules/lighting/outputs.h"
 #include "modules/lights/components.h"
 #include "modules/shadows/components.h"
 #include "modules/shadows/outputs.h"

@@ -14,7 +14,6 @@
 #include "modules/lighting/knobs.h"
 #include "modules/lighting/lighting_passes.h"
 #include "modules/lighting/outputs.h"
-#include "modules/lighting/reference.h"
 
 namespace gloam {
 namespace {

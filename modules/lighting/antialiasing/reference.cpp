@@ -14,7 +14,6 @@
 #include "engine/math/low_discrepancy.h"
 #include "engine/math/srgb.h"
 #include "modules/lighting/outputs.h"
-#include "modules/lighting/reference.h"
 
 namespace gloam {
 namespace {

@@ -12,140 +12,21 @@
 #include "engine/math/srgb.h"
 #include "engine/render/knobs/knob_table.h"
 #include "modules/accuracy/module.h"
+#include "tests/modules/accuracy/fake_subject.h"
 #include "tests/support/expect_assert.h"
 #include "tests/support/temporary_folder.h"
 
 namespace gloam {
 namespace {
 
-using test::TestFolder;
+using test::FakeSubject;
+using test::kCount;
+using test::kSamples;
+using test::kSide;
+using test::MeasureCosts;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-constexpr std::uint32_t kSide = 4;
-
-constexpr IntegerKnob<std::uint32_t> kSamples{.name = "fake.samples",
-                                              .meaning = "",
-                                              .min = 1,
-                                              .max = 64,
-                                              .default_value = 4,
-                                              .exact = 64,
-                                              .ledger_values = {1, 4, 16}};
-constexpr OnOffKnob kCount{.name = "fake.count", .meaning = ""};
-
-/// A fake renderer: "samples" makes the picture brighter by 1/samples and costs that many milliseconds; no value of
-/// "look" is more right than another. Of three methods, "c" draws another picture.
-class FakeSubject final : public CostSubject {
- public:
-  FakeSubject() {
-    knobs_.add(declaration_of(kSamples, "fake"));
-    knobs_.add({.name = "fake.look", .module = "fake", .choices = {"warm", "cold"}});
-    knobs_.add(declaration_of(kCount, "fake"));
-    knobs_.add({.name = "fake.taste", .module = "fake", .choices = {"warm", "cold"}, .taste = "a look"});
-    knobs_.add(
-        {.name = "fake.method", .module = "fake", .choices = {"a", "b", "c"}, .exact = "a", .same_picture = true});
-  }
-
-  [[nodiscard]] KnobRegistry& knobs() override { return knobs_; }
-  [[nodiscard]] std::vector<ReferenceInfo> references() const override { return references_; }
-  [[nodiscard]] std::vector<MeasureInfo> measures() const override { return measures_; }
-  [[nodiscard]] FrameCounters counters() override {
-    if (!knobs_.value(kCount)) return {};
-    return {{"fake.work", static_cast<double>(knobs_.value(kSamples))}};
-  }
-  [[nodiscard]] Result<FrameCost> draw(std::int32_t index) override {
-    ++frames_drawn;
-    indices.push_back(index);
-    index_ = index;
-    if (fail_after > 0 && frames_drawn > fail_after) return Error{ErrorKind::failed, "the device is lost"};
-    counted_frames += knobs_.value(kCount) ? 1 : 0;
-    const double gpu_ms = knobs_.value(kSamples) + slower_by * frames_drawn;
-    return FrameCost{.cpu_ms = 1.0, .gpu_ms = gpu_ms, .modules = {{"other", 7.0, 7.0}, {"fake", 0.5, gpu_ms / 2.0}}};
-  }
-  [[nodiscard]] Result<std::uint64_t> gpu_bytes() override { return std::uint64_t{knobs_.value(kSamples)} * 100; }
-  [[nodiscard]] Result<FramePictures> read() override { return pictures(brightness()); }
-  [[nodiscard]] Result<FramePictures> draw_reference(const ReferenceInfo&, const FramePictures& frame,
-                                                     std::uint32_t samples) override {
-    ++references_drawn;
-    return reference(frame, samples);
-  }
-
-  [[nodiscard]] Result<std::optional<MovedDistance>> measure_distance(const ReferenceInfo&) override {
-    return distance ? distance(brightness()) : std::nullopt;
-  }
-  [[nodiscard]] std::string no_effect_reason(const Knob& knob) override { return reasons[knob.name]; }
-
-  [[nodiscard]] double brightness() const {
-    const double error = 1.0 / knobs_.value(kSamples);
-    // The exact value does not flicker; the others do.
-    const double wrong = knobs_.text(*knobs_.find("fake.method")) == "c" ? 0.01 : 0.0;
-    return 0.25 + wrong + (knobs_.value(kSamples) == 64 ? 0.0 : error * (index_ % 2 == 0 ? 0.5 : 0.25));
-  }
-  static FramePictures pictures(double brightness) {
-    const auto encoded = static_cast<std::uint8_t>(std::lround(255.0 * brightness));
-    return {.linear = {kSide, kSide, std::vector<float>(kSide * kSide * 4, static_cast<float>(brightness))},
-            .picture = {kSide, kSide, std::vector<std::uint8_t>(kSide * kSide * 4, encoded)}};
-  }
-
-  int frames_drawn = 0;
-  int counted_frames = 0;
-  int references_drawn = 0;
-  std::vector<std::int32_t> indices;  ///< of all drawn frames
-  int fail_after = 0;
-  double slower_by = 0.0;  ///< ms by which each frame is slower than the one before
-  std::vector<ReferenceInfo> references_;
-  std::vector<MeasureInfo> measures_;
-  std::function<Result<FramePictures>(const FramePictures&, std::uint32_t)> reference;
-  std::function<std::optional<MovedDistance>(double brightness)> distance;
-  std::map<std::string, std::string> reasons;
-
- private:
-  KnobRegistry knobs_;
-  std::int32_t index_ = 0;
-};
-
-class Progress final : public CostProgress {
- public:
-  void measuring(const std::string& knob, const std::string& value, std::size_t done, std::size_t total) override {
-    lines.push_back(knob + "=" + value + " " + std::to_string(done) + "/" + std::to_string(total));
-  }
-  void finished(const LedgerRow&, bool resumed) override { ++(resumed ? found : measured); }
-
-  Status picture(const std::string& name, const Picture& picture) override {
-    const auto [known, added] = pictures.emplace(name, picture.rgba);
-    EXPECT_TRUE(added || known->second == picture.rgba) << "one name for two pictures: " << name;
-    return {};
-  }
-  bool has_picture(const std::string& name) override { return name != lost; }
-
-  std::vector<std::string> lines;
-  std::map<std::string, std::vector<std::uint8_t>> pictures;
-  std::string lost;  ///< name of a picture that an earlier run left and that is gone
-  int measured = 0;
-  int found = 0;
-};
-
-class MeasureCosts : public ::testing::Test {
- protected:
-  MeasureCosts() {
-    request_.header = {.scene = "s", .scene_hash = "h", .width = kSide, .height = kSide, .frames = 5, .samples = 64};
-    request_.knobs = {"fake.samples"};
-    request_.folder = folder_.path();
-  }
-  Ledger measure() {
-    progress_ = {};
-    auto ledger = measure_costs(request_, subject_, progress_);
-    EXPECT_TRUE(ledger.ok()) << ledger.error().message;
-    return ledger.ok() ? *ledger : Ledger{};
-  }
-  void judge_by(ReferenceInfo reference) { subject_.references_ = {std::move(reference)}; }
-
-  TestFolder folder_;
-  CostRequest request_;
-  FakeSubject subject_;
-  Progress progress_;
-};
 
 TEST_F(MeasureCosts, gives_every_picture_of_every_row) {
   const Ledger ledger = measure();
@@ -230,91 +111,6 @@ TEST_F(MeasureCosts, a_knob_that_changes_nothing_has_no_effect) {
   request_.knobs = {"fake.samples"};
   ledger = measure();
   for (const LedgerRow& row : ledger.rows) EXPECT_EQ(row.no_effect, row.is_default) << row.value;
-}
-
-TEST_F(MeasureCosts, a_knob_that_changes_nothing_says_why) {
-  request_.knobs = {"fake.count"};
-  request_.header.frames = 8;
-  subject_.reasons["fake.count"] = "nothing is counted";
-  const Ledger ledger = measure();
-  EXPECT_EQ(ledger.rows[0].no_effect_reason, "nothing is counted");
-  EXPECT_EQ(ledger.rows[1].no_effect_reason, "") << "only the default's row";
-  EXPECT_THAT(ledger_table(ledger), HasSubstr("fake.count: no effect here: nothing is counted; the pictures of all"));
-  EXPECT_THAT(ledger_report(ledger, {}), HasSubstr("nothing is counted"));
-}
-
-TEST_F(MeasureCosts, a_taste_has_its_reason_in_place_of_errors) {
-  request_.knobs = {"fake.taste"};
-  const Ledger ledger = measure();
-  for (const LedgerRow& row : ledger.rows) {
-    EXPECT_EQ(row.no_reference, "a look");
-    EXPECT_FALSE(row.error() || row.flip || row.on_front) << row.value;
-  }
-  EXPECT_THAT(ledger_table(ledger), HasSubstr("fake.taste: no reference: a look\n"));
-}
-
-TEST_F(MeasureCosts, a_method_with_another_picture_is_wrong) {
-  request_.knobs = {"fake.method"};
-  Ledger ledger = measure();
-  ASSERT_EQ(ledger.rows.size(), 3u);
-  EXPECT_EQ(ledger.rows[0].wrong, "");
-  EXPECT_EQ(ledger.rows[1].wrong, "");
-  EXPECT_EQ(ledger.rows[2].wrong, "its picture is not equal to the bit to that of fake.method=a");
-  EXPECT_THAT(ledger_table(ledger), HasSubstr("! fake.method=c is wrong"));
-  // By a measure, too, and a fault of the measure comes first.
-  subject_.measures_ = {{.knob = "fake.method",
-                         .kind = "brute force",
-                         .name = "all",
-                         .picture = {{"fake.method", "b"}},
-                         .error = [](const FrameCounters&, const FrameCounters&) { return std::nullopt; },
-                         .fault = [](const FrameCounters&) { return std::string(); }}};
-  request_.conditions = "another";
-  ledger = measure();
-  EXPECT_EQ(ledger.rows[1].wrong, "");
-  EXPECT_EQ(ledger.rows[2].wrong, "its picture is not equal to the bit to that of all");
-  EXPECT_GT(*ledger.rows[2].error(), 0.0) << "without a count, that of the picture";
-}
-
-TEST_F(MeasureCosts, a_distance_is_the_error_and_pictures_are_judged_by_the_exact_value) {
-  judge_by({.knob = "fake.samples",
-            .kind = "double precision",
-            .name = "finer",
-            .distance = [](const ReferenceInput&) { return std::optional<MovedDistance>(); },
-            .unit = "mm"});
-  subject_.distance = [](double brightness) { return MovedDistance{brightness, 2.0 * brightness}; };
-  Ledger ledger = measure();
-  ASSERT_EQ(ledger.rows.size(), 4u);
-  for (const LedgerRow& row : ledger.rows) {
-    EXPECT_EQ(row.reference_kind, "double precision");
-    EXPECT_EQ(row.reference_name, "finer; pictures against fake.samples=64");
-    ASSERT_TRUE(row.counted && row.flip);
-    const double expected = 0.25 + (row.value == "64" ? 0.0 : 0.5 / std::stod(row.value));
-    EXPECT_EQ(*row.counted, (CountedError{expected, "mm", 2.0 * expected})) << "of the frame with the row's value";
-    EXPECT_EQ(row.error(), expected);
-  }
-  EXPECT_THAT(ledger_table(ledger), HasSubstr("0.750, p99 1.500"));
-  EXPECT_THAT(ledger_report(ledger, {}), HasSubstr("0.750 (p99 1.50) mm"));
-  subject_.distance = [](double) { return std::nullopt; };
-  request_.conditions = "another";
-  ledger = measure();
-  for (const LedgerRow& row : ledger.rows) EXPECT_FALSE(row.counted) << "nothing to measure";
-}
-
-TEST_F(MeasureCosts, a_reference_is_drawn_with_its_own_knobs) {
-  judge_by({.knob = "fake.look",
-            .kind = "accumulated",
-            .name = "finest",
-            .drawn_with = {{"fake.samples", "64"}, {"fake.look", "cold"}}});
-  std::vector<std::string> looks;
-  subject_.reference = [&](const FramePictures& frame, std::uint32_t) -> Result<FramePictures> {
-    looks.push_back(subject_.knobs().text(*subject_.knobs().find("fake.look")));
-    return frame;
-  };
-  request_.knobs = {"fake.look"};
-  const Ledger ledger = measure();
-  EXPECT_THAT(looks, ElementsAre("cold")) << "while the reference draws, too";
-  for (const LedgerRow& row : ledger.rows) EXPECT_NEAR(*row.rmse, 0.125, 1e-6) << "of four samples against 64";
-  EXPECT_EQ(subject_.knobs().value(kSamples), 4u) << "put back";
 }
 
 TEST_F(MeasureCosts, leaves_the_users_value_and_tells_progress) {
