@@ -43,7 +43,7 @@ std::string knob_gain(const KnobResults& knob) {
     return "<p>No value is significantly cheaper than the default.</p>\n";
   return "<p>The cheapest value, <code>" + escaped(cheapest->value) + "</code>, takes " + ratio_text(*cheapest) +
          " of the frame’s time and gives back " + ms_text(knob.standard->ms.median_ms * (1.0 - cheapest->ratio)) +
-         "; error " + escaped(error_text_of(*cheapest)) + ".</p>\n";
+         (cheapest->error() ? "; error " + escaped(error_text_of(*cheapest)) : "") + ".</p>\n";
 }
 
 std::string knob_article(const KnobResults& knob) {

@@ -18,6 +18,7 @@ namespace {
 using test::kSamples;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class JudgedKnobs : public test::MeasureCosts {};
 
@@ -34,12 +35,18 @@ TEST_F(JudgedKnobs, a_knob_that_changes_nothing_says_why) {
 
 TEST_F(JudgedKnobs, a_taste_has_its_reason_in_place_of_errors) {
   request_.knobs = {"fake.taste"};
-  const Ledger ledger = measure();
+  Ledger ledger = measure();
   for (const LedgerRow& row : ledger.rows) {
     EXPECT_EQ(row.no_reference, "a look");
     EXPECT_FALSE(row.error() || row.flip || row.on_front) << row.value;
   }
   EXPECT_THAT(ledger_table(ledger), HasSubstr("fake.taste: no reference: a look\n"));
+  for (LedgerRow& row : ledger.rows) row.no_effect = false;  // as with pictures that differ
+  ledger.rows[1].ratio = ledger.rows[1].ratio_high = 0.5;
+  const std::string report = ledger_report(ledger, {});
+  EXPECT_THAT(report, HasSubstr("No reference: a look."));
+  EXPECT_THAT(report, HasSubstr("and gives back"));
+  EXPECT_THAT(report, Not(HasSubstr("error no reference")));
 }
 
 TEST_F(JudgedKnobs, a_method_with_another_picture_is_wrong) {
