@@ -12,6 +12,7 @@
 #include "engine/ecs/entity.h"
 #include "engine/math/types.h"
 #include "engine/render/knobs/knobs.h"
+#include "engine/render/knobs/measure.h"
 #include "engine/render/pipeline_list.h"
 #include "engine/render/view.h"
 
@@ -24,7 +25,6 @@ class KeyRegistry;
 class Schedule;
 class World;
 struct FrameResult;
-struct MeasureInfo;
 struct ReferenceInfo;
 struct ReferenceInput;
 
@@ -118,6 +118,13 @@ class Module {
   /// Measures for knobs whose values all draw the same picture; at most one per knob. A knob with a measure needs no
   /// reference.
   [[nodiscard]] virtual std::vector<MeasureInfo> measures() const;
+  /// Why a knob of the module changes nothing in the view's last frame, in a few words for users: "no reflection proxy
+  /// is active". Empty: the module cannot tell. Asked for knobs whose values draw equal pictures, so the reason need
+  /// not exclude all others, but must be true. counters: of that frame.
+  [[nodiscard]] virtual std::string idle_knob(const World&, const RenderView&, std::string_view /*knob*/,
+                                              const FrameCounters& /*counters*/) const {
+    return {};
+  }
   virtual void add_systems(Schedule&) {}
   [[nodiscard]] virtual std::vector<VisualizerInfo> visualizers() const { return {}; }
 

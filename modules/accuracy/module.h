@@ -74,6 +74,11 @@ class CostSubject {
   /// Calls reference.draw for the last frame. `frame`: the pictures of that frame, from read().
   [[nodiscard]] virtual Result<FramePictures> draw_reference(const ReferenceInfo& reference, const FramePictures& frame,
                                                              std::uint32_t samples) = 0;
+  /// Calls reference.distance for the last frame.
+  [[nodiscard]] virtual Result<std::optional<MovedDistance>> measure_distance(const ReferenceInfo& reference) = 0;
+  /// Why the knob changes nothing in the last frame, in a few words; empty: it is not known, or it may change
+  /// something.
+  [[nodiscard]] virtual std::string no_effect_reason(const Knob& knob) = 0;
 };
 
 /// A row that is to be measured, for an estimate of the time left.

@@ -31,7 +31,8 @@ struct ErrorPair {
 /// An error that is a count, not a difference of pictures.
 struct CountedError {
   double value = 0.0;
-  std::string unit;  ///< "false positives a tile"
+  std::string unit;           ///< "false positives a tile"
+  std::optional<double> p99;  ///< if `value` is the mean of many: their 99th percentile
   bool operator==(const CountedError&) const = default;
 };
 
@@ -52,6 +53,7 @@ struct LedgerRow {
   std::string reference_kind;  ///< "brute force", "traced", "accumulated", "double precision"; empty: the knob has no
                                ///< reference and errors are absent
   std::string reference_name;
+  std::string no_reference;  ///< why there is none (Knob::taste); empty: there is one, or no reason is known
   /// Mean FLIP between half and all samples of the reference (RMSE if the reference has no picture); 0: exact.
   double reference_noise = 0.0;
   bool below_noise = false;  ///< the error is less than reference_noise, so its value has no meaning
@@ -86,6 +88,9 @@ struct LedgerRow {
   std::vector<PictureArea> worst;  ///< where mean FLIP is highest, the worst first; apart, and of one size
   /// The picture is equal to the default's to the bit, and no difference in time is significant.
   bool no_effect = false;
+  /// Only of rows of the default: why the knob changes nothing, as far as that is known; of use if no_effect is set for
+  /// all rows of the knob.
+  std::string no_effect_reason;
   bool on_front = false;  ///< see mark_pareto_front()
 
   /// The error for the front and for reports: `counted` if set; otherwise mean FLIP or, without FLIP, RMSE, and at
@@ -154,6 +159,9 @@ void mark_pareto_front(std::vector<LedgerRow>& rows);
 /// One ledger of several, each of another camera or time. Each value has its greatest error, ratio, time and memory
 /// over the cameras; fronts are of these. A single ledger stays as it is.
 [[nodiscard]] Ledger worst_of_cameras(std::vector<Ledger> ledgers);
+
+/// Why a row without a reference has none: row.no_reference, or a sentence that is always true.
+[[nodiscard]] std::string no_reference_text(const LedgerRow& row);
 
 /// A readable table: a header, then one aligned line per row. `*` marks the front, `!` a wrong row.
 [[nodiscard]] std::string ledger_table(const Ledger& ledger);

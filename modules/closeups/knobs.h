@@ -16,7 +16,8 @@ inline constexpr IntegerKnob<std::uint32_t> kMostCloseupPairs{
         "pairs are drawn into the light's standard maps",
     .max = 256,
     .default_value = 8,
-    .ledger_values = {0.0, 1.0, 2.0, 4.0, 8.0, 16.0}};
+    .ledger_values = {0.0, 1.0, 2.0, 4.0, 8.0, 16.0},
+    .only_with = "shadows.mode=deferred"};
 inline constexpr NumberKnob kCloseupTexelsPerPixel{
     .name = "closeups.texels_per_pixel",
     .meaning =
@@ -26,25 +27,29 @@ inline constexpr NumberKnob kCloseupTexelsPerPixel{
     .max = 8.0,
     .default_value = 1.0,
     .unit = "texels a pixel",
-    .ledger_values = {0.25, 0.5, 1.0, 2.0, 4.0}};
+    .ledger_values = {0.25, 0.5, 1.0, 2.0, 4.0},
+    .only_with = "shadows.mode=deferred"};
 inline constexpr ChoiceKnob<bool> kCloseupSingleFetches{
     .name = "closeups.filter",
     .meaning =
         "filter of close-up maps when shadows.filter=chs: the same as for standard maps (chs), or single fetches "
         "(pcss), which are more exact in wide penumbrae of small subjects",
     .choices = {{"chs", false}, {"pcss", true}},
-    .default_value = true};
+    .default_value = true,
+    .only_with = "shadows.filter=chs"};
 inline constexpr ChoiceKnob<std::uint32_t> kCloseupBatch{
     .name = "closeups.batch",
     .meaning = "close-up pairs that are drawn into the close-up map together",
     .choices = {{"1", 1}, {"2", 2}, {"4", 4}},
-    .default_value = 1};
+    .default_value = 1,
+    .only_with = "shadows.mode=deferred"};
 inline constexpr ChoiceKnob<bool> kCloseupDrawsStandard{
     .name = "closeups.standard",
     .meaning =
         "how close-up subjects shadow forward-lit surfaces: their close-up maps are copied into the light's "
         "standard maps (transfer), or they are drawn into these as well (draw)",
-    .choices = {{"transfer", false}, {"draw", true}}};
+    .choices = {{"transfer", false}, {"draw", true}},
+    .only_with = "shadows.mode=deferred"};
 
 /// Values of this module's knobs.
 struct CloseupKnobs {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "modules/closeups/module.h"
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <string_view>
@@ -10,6 +11,7 @@
 #include "engine/render/frame_builder.h"
 #include "engine/render/seen_surfaces.h"
 #include "engine/render/worlds/world_id.h"
+#include "engine/scene/assets.h"
 #include "engine/scene/components.h"
 #include "engine/scene/keys/table.h"
 #include "modules/closeups/closeup_passes.h"
@@ -81,6 +83,17 @@ class CloseupsModule final : public Module {
                                         kCloseupBatch.name, kCloseupDrawsStandard.name})
       references.push_back(traced_shadows(std::string(knob)));
     return references;
+  }
+  [[nodiscard]] std::string idle_knob(const World& world, const RenderView&, std::string_view knob,
+                                      const FrameCounters& counters) const override {
+    const auto pairs = counters.find("closeups.pairs");
+    if (pairs == counters.end()) return {};
+    if (pairs->second <= 0.0) return "no close-up pair has a map";
+    if (knob == kCloseupBatch.name && pairs->second < 2.0) return "one close-up pair is in view";
+    const auto& materials = world.resource<SceneAssets>().materials;
+    const bool blends =
+        std::ranges::any_of(materials, [](const Material& m) { return m.alpha_mode == AlphaMode::blend; });
+    return knob == kCloseupDrawsStandard.name && !blends ? "no material is blended" : "";
   }
   void add_systems(Schedule& schedule) override { add_closeup_systems(schedule); }
   [[nodiscard]] std::vector<VisualizerInfo> visualizers() const override { return closeup_visualizers(); }

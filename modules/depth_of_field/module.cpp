@@ -73,6 +73,11 @@ class DepthOfFieldModule final : public Module {
       references.push_back(lens_reference(std::string(knob)));
     return references;
   }
+  [[nodiscard]] std::string idle_knob(const World&, const RenderView&, std::string_view,
+                                      const FrameCounters& counters) const override {
+    const auto tiles = counters.find("dof.tiles");
+    return tiles != counters.end() && tiles->second == 0.0 ? "all that is in view is in focus" : "";
+  }
   [[nodiscard]] bool shows_surfaces(const World&, const RenderView&) const override { return false; }
   [[nodiscard]] Demand demand(const World& world, const RenderView* view) const override {
     if (view != nullptr) return view_demand(world, *view);

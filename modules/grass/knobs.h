@@ -49,6 +49,7 @@ inline constexpr NumberKnob kGrassDensityScale{.name = "grass.density_scale",
                                                .meaning = "factor of the density of all grass",
                                                .max = 1000,
                                                .default_value = 1,
+                                               .exact = 1,
                                                .ledger_values = {0.25, 0.5, 1, 2}};
 inline constexpr NumberKnob kGrassLodPixels{
     .name = "grass.lod_pixels",
@@ -71,9 +72,10 @@ inline constexpr NumberKnob kGrassCastDistance{.name = "grass.cast_distance",
                                                .meaning = "distance from the camera up to which blades cast shadows",
                                                .max = 1000,
                                                .default_value = 6,
-                                               .exact = 12,
+                                               .exact = 1000,
                                                .unit = "m",
-                                               .ledger_values = {0, 3, 6, 12}};
+                                               .ledger_values = {0, 3, 6, 12},
+                                               .only_with = "shadows.mode=monolithic|deferred"};
 inline constexpr ChoiceKnob<bool> kGrassAllSegments{
     .name = "grass.segments",
     .meaning = "segments of a blade: as many as its size in the picture needs (distance), or 15 (full)",
@@ -84,12 +86,14 @@ inline constexpr ChoiceKnob<bool> kGrassReadback{
     .meaning =
         "size of the simulation's dispatch: from this frame on the GPU (indirect), or from an earlier frame on "
         "the CPU (readback)",
-    .choices = {{"indirect", false}, {"readback", true}}};
+    .choices = {{"indirect", false}, {"readback", true}},
+    .exact = false};
 inline constexpr EnumKnob<SimulationThreads> kGrassThreads{
     .name = "grass.group",
     .meaning =
         "threads of a workgroup of the simulation, 16 for each blade (32, 64, 128); one thread for each blade "
-        "(blade); or what is faster on this kind of device (device)"};
+        "(blade); or what is faster on this kind of device (device)",
+    .exact = SimulationThreads::blade};
 
 /// Values of the module's knobs.
 struct GrassKnobs {

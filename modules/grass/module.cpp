@@ -20,8 +20,10 @@
 #include "modules/grass/field/metres.h"
 #include "modules/grass/grass_passes.h"
 #include "modules/grass/keys.h"
+#include "modules/grass/reference/tip_distance.h"
 #include "modules/grass/simulation/colliders.h"
 #include "modules/grass/simulation/simulate_blades_pass.h"
+#include "modules/lighting/outputs.h"
 #include "modules/lights/components.h"
 #include "modules/shadows/components.h"
 #include "modules/shadows/outputs.h"
@@ -78,6 +80,18 @@ void grass_patches_system(Resource<const GrassField> field, Resource<const Grass
   *visible = find_visible_patches(field->patches, metric, culling, jobs);
 }
 
+/// Blades are thinned and widened where they are thinner than pixels: the truth is all of them, sampled finely.
+std::vector<ReferenceInfo> grass_references() {
+  std::vector<ReferenceInfo> references = tip_references();
+  for (const std::string_view knob : {kGrassLodPixels.name, kGrassThreshold.name, kGrassAllSegments.name}) {
+    ReferenceInfo& drawn = references.emplace_back(supersampled_reference(std::string(knob)));
+    drawn.name = "every blade with all segments, sampled at points of each pixel";
+    drawn.drawn_with = {override_of(kGrassLodPixels, 0.0), override_of(kGrassThreshold, 254u),
+                        override_of(kGrassAllSegments, true)};
+  }
+  return references;
+}
+
 class GrassModule final : public Module {
  public:
   [[nodiscard]] std::string_view name() const override { return "grass"; }
@@ -96,6 +110,17 @@ class GrassModule final : public Module {
     world.ensure_resource<GrassWorld>();
   }
   void knobs(KnobRegistry& registry) const override { add_grass_knobs(registry); }
+  [[nodiscard]] std::vector<ReferenceInfo> references() const override { return grass_references(); }
+  [[nodiscard]] std::string idle_knob(const World& world, const RenderView& view, std::string_view knob,
+                                      const FrameCounters&) const override {
+    const bool moves = knob == kGrassIterations.name || knob == kGrassReadback.name || knob == kGrassThreads.name;
+    if (moves && world.view<const Wind>().size() == 0 && world.view<const Collider>().size() == 0)
+      return "neither wind nor a collider moves the grass";
+    const auto* visible = world.try_view_resource<VisiblePatches>(view.id);
+    if (knob == kGrassCastDistance.name && visible != nullptr && !visible->cast)
+      return "no light that reaches the view casts shadows";
+    return {};
+  }
   void scene_keys(KeyRegistry& registry) const override { add_grass_keys(registry); }
   [[nodiscard]] Demand demand(const World& world, const RenderView* view) const override {
     std::size_t surfaces = 0;

@@ -26,8 +26,10 @@ enum class ToneCurve : std::uint32_t { filmic, reinhard, linear, agx };
 }
 
 // The knobs that the program does not read; kAntialiasing is in outputs.h.
-inline constexpr EnumKnob<ToneCurve> kToneMap{.name = "lighting.tone_map",
-                                              .meaning = "tone curve that maps exposed linear light to the picture"};
+inline constexpr EnumKnob<ToneCurve> kToneMap{
+    .name = "lighting.tone_map",
+    .meaning = "tone curve that maps exposed linear light to the picture",
+    .taste = "a tone curve is a look; lighting.tone_map_table shows how exactly it is computed"};
 /// Entries of the table; 0: no table.
 inline constexpr ChoiceKnob<std::uint32_t> kToneMapTable{
     .name = "lighting.tone_map_table",
@@ -42,6 +44,7 @@ inline constexpr OnOffKnob kDither{
     .name = "lighting.dither",
     .meaning = "rounding of the picture to 8 bits with a fixed pattern, so that gradients show no bands",
     .choices = {{"on", true}, {"off", false}},
-    .default_value = true};
+    .default_value = true,
+    .taste = "both round to steps of 8 bits: one shows noise of about a step, the other shows bands"};
 
 }  // namespace gloam

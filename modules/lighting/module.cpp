@@ -32,9 +32,11 @@ class LightingModule final : public Module {
 
   [[nodiscard]] std::vector<ReferenceInfo> references() const override {
     std::vector<ReferenceInfo> list;
-    for (const std::string_view knob : {kToneMap.name, kToneMapTable.name})
-      list.push_back(
-          {std::string(knob), "double precision", "tone curve on the CPU", true, false, &draw_tone_reference});
+    list.push_back({.knob = std::string(kToneMapTable.name),
+                    .kind = "double precision",
+                    .name = "tone curve on the CPU",
+                    .follows_value = true,
+                    .draw = &draw_tone_reference});
     list.push_back(supersampled_reference(std::string(kAntialiasing.name)));
     list.push_back(supersampled_reference(std::string(kSpecularAntialiasing.name)));
     return list;

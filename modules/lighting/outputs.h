@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "engine/render/declare/shader_pass.h"
 #include "engine/render/frame_builder.h"
 #include "engine/render/knobs/knob_table.h"
+#include "engine/render/reference/reference.h"
 #include "modules/lights/outputs.h"
 #include "modules/shadows/outputs.h"
 
@@ -114,5 +116,8 @@ struct ForwardLighting {
 /// lights, light_texels, grid, mask_tiles and z_bin_words; with shadows or cookies also those of read_shadows(). The
 /// program must be a version for this frame, see ForwardLighting.
 void read_lighting(ShaderPass& pass, FrameBuilder& frame);
+
+/// The reference of a knob: the mean, in linear light, of pictures whose pixels are sampled at different points.
+[[nodiscard]] ReferenceInfo supersampled_reference(std::string knob);
 
 }  // namespace gloam

@@ -60,6 +60,19 @@ class LightsModule final : public Module {
 
   [[nodiscard]] std::vector<MeasureInfo> measures() const override { return light_measures(); }
 
+  [[nodiscard]] std::string idle_knob(const World& world, const RenderView& view, std::string_view knob,
+                                      const FrameCounters&) const override {
+    if (knob == kEmitterHighlights.name) {
+      bool wide = false;
+      world.view<const Light>().each([&](const Light& light) {
+        wide = wide || (light.kind == LightKind::directional ? light.apparent_angle : light.width_m) > 0.0f;
+      });
+      return wide ? "" : "no light has a width";
+    }
+    const VisibleLights* visible = world.try_view_resource<VisibleLights>(view.id);
+    return visible != nullptr && visible->block.local_count == 0 ? "no lamp is in view" : "";
+  }
+
   void add_systems(Schedule& schedule) override { add_light_systems(schedule); }
 
   [[nodiscard]] bool shows_surfaces(const World&, const RenderView&) const override { return false; }

@@ -21,7 +21,8 @@ inline constexpr ChoiceKnob<ParticleLighting> kParticleLighting{
                 {"vertex", ParticleLighting::vertex},
                 {"pixel", ParticleLighting::pixel}},
     .default_value = ParticleLighting::vertex,
-    .exact = ParticleLighting::pixel};
+    .exact = ParticleLighting::pixel,
+    .only_with = "particles.light=on"};
 inline constexpr OnOffKnob kParticleLight{
     .name = "particles.light",
     .meaning = "whether lights and surroundings light particles (on), or all have the mean light of the sky (off)",

@@ -62,6 +62,11 @@ class ParticlesModule final : public Module {
     if (world.try_view_resource<VisibleEmitters>(view) == nullptr) world.set_view_resource(view, VisibleEmitters{});
   }
   [[nodiscard]] std::vector<ReferenceInfo> references() const override { return particle_references(); }
+  [[nodiscard]] std::string idle_knob(const World&, const RenderView&, std::string_view,
+                                      const FrameCounters& counters) const override {
+    const auto drawn = counters.find("particles.drawn");
+    return drawn != counters.end() && drawn->second == 0.0 ? "no particle is drawn" : "";
+  }
   [[nodiscard]] std::vector<VisualizerInfo> visualizers() const override { return particle_visualizers(); }
   void pipelines(const KnobRegistry& knobs, const gpu::DeviceInfo& device, PipelineList& list) const override {
     list_particle_pipelines(particle_lighting(knobs), last_version_, device.threads_in_turn, list);

@@ -66,25 +66,30 @@ inline constexpr ChoiceKnob<ReflectionTiers> kReflectionTiers{
                 {"ssr+cube", {true, false}},
                 {"ibr+cube", {false, true}},
                 {"all", {true, true}}},
-    .default_value = {true, true}};
+    .default_value = {true, true},
+    .only_with = "reflections.mode=tiers"};
 inline constexpr OnOffKnob kReflectionTemporal{
     .name = "reflections.temporal",
-    .meaning = "whether reflections are accumulated over frames, reprojected by the mirrored position"};
+    .meaning = "whether reflections are accumulated over frames, reprojected by the mirrored position",
+    .only_with = "reflections.mode=tiers|planar"};
 inline constexpr ChoiceKnob<bool> kReflectionPixelRoughness{
     .name = "reflections.roughness",
     .meaning =
         "width of the blur of reflections: one for all surfaces, as in the paper (constant), or by each "
         "surface's roughness (pixel)",
     .choices = {{"constant", false}, {"pixel", true}},
-    .default_value = true};
+    .default_value = true,
+    .only_with = "reflections.mode=tiers|planar"};
 inline constexpr OnOffKnob kReflectionBlur{
     .name = "reflections.blur",
     .meaning = "whether reflections are blurred by the distance of what they show",
-    .default_value = true};
+    .default_value = true,
+    .only_with = "reflections.mode=tiers|planar"};
 inline constexpr OnOffKnob kReflectionLightScale{
     .name = "reflections.light_scale",
     .meaning = "whether captured colours follow lights that have changed since the capture",
-    .default_value = true};
+    .default_value = true,
+    .only_with = "reflections.mode=tiers|planar"};
 
 inline constexpr NumberKnob kSsrK1{
     .name = "ssr.k1",
@@ -93,13 +98,15 @@ inline constexpr NumberKnob kSsrK1{
     .max = 256,
     .default_value = 32,
     .unit = "samples",
-    .ledger_values = {8, 16, 32, 64}};
+    .ledger_values = {8, 16, 32, 64},
+    .only_with = "ssr.march=constant"};
 inline constexpr NumberKnob kSsrK2{.name = "ssr.k2",
                                    .meaning = "how fast that number falls with depth",
                                    .max = 1,
                                    .default_value = 0.02,
                                    .unit = "1/m",
-                                   .ledger_values = {0, 0.02, 0.05, 0.1}};
+                                   .ledger_values = {0, 0.02, 0.05, 0.1},
+                                   .only_with = "ssr.march=constant"};
 inline constexpr NumberKnob kSsrReach{
     .name = "ssr.reach",
     .meaning =
@@ -109,33 +116,41 @@ inline constexpr NumberKnob kSsrReach{
     .max = 1000,
     .default_value = 8,
     .unit = "m",
-    .ledger_values = {1, 2, 4, 8, 16}};
+    .ledger_values = {1, 2, 4, 8, 16},
+    .only_with = "reflections.tiers=ssr+cube|all"};
 inline constexpr IntegerKnob<std::uint32_t> kSsrRefine{.name = "ssr.refine",
                                                        .meaning = "steps of the binary search for the hit",
                                                        .max = 16,
                                                        .default_value = 5,
                                                        .unit = "steps",
-                                                       .ledger_values = {0, 2, 4, 5, 6}};
+                                                       .ledger_values = {0, 2, 4, 5, 6},
+                                                       .only_with = "reflections.tiers=ssr+cube|all"};
 inline constexpr ChoiceKnob<bool> kSsrFullResolution{
     .name = "ssr.resolution",
     .meaning = "size of the reflection images, relative to the picture",
-    .choices = {{"half", false}, {"full", true}}};
+    .choices = {{"half", false}, {"full", true}},
+    .only_with = "reflections.mode=tiers|planar"};
 inline constexpr ChoiceKnob<bool> kSsrHierarchical{
     .name = "ssr.march",
     .meaning =
         "steps of the screen-space march: constant in metres, or by tiles of the depth image and pixels where a "
         "tile holds something near the ray (hierarchical)",
     .choices = {{"constant", false}, {"hierarchical", true}},
-    .default_value = true};
+    .default_value = true,
+    .only_with = "reflections.tiers=ssr+cube|all"};
 
 inline constexpr ChoiceKnob<std::uint32_t> kProxyTiles{
     .name = "ibr.tiles",
     .meaning = "vertical screen tiles with a list of proxies each",
     .choices = {{"1", 1}, {"4", 4}, {"8", 8}, {"16", 16}, {"32", 32}, {"64", 64}},
-    .default_value = 16};
+    .default_value = 16,
+    .same_picture = true,
+    .only_with = "ibr.loop=tiles"};
 inline constexpr EnumKnob<ProxyTileBound> kProxyTileBound{
     .name = "ibr.tile_bound",
-    .meaning = "screen range of a reflected proxy: exact, or by the heuristic of the paper, which can miss hits"};
+    .meaning = "screen range of a reflected proxy: exact, or by the heuristic of the paper, which can miss hits",
+    .exact = ProxyTileBound::exact,
+    .only_with = "ibr.loop=tiles"};
 inline constexpr IntegerKnob<std::uint32_t> kProxyLayers{
     .name = "ibr.layers",
     .meaning = "nearest layers along a reflected ray that are blended",
@@ -143,15 +158,21 @@ inline constexpr IntegerKnob<std::uint32_t> kProxyLayers{
     .max = 4,
     .default_value = 4,
     .unit = "layers",
-    .ledger_values = {1, 2, 3, 4}};
+    .ledger_values = {1, 2, 3, 4},
+    .only_with = "reflections.tiers=ibr+cube|all"};
 inline constexpr OnOffKnob kProxySphereTest{
     .name = "ibr.sphere_test",
     .meaning = "whether a proxy's bounding sphere is tested before its rectangle",
-    .default_value = true};
+    .default_value = true,
+    .same_picture = true,
+    .only_with = "reflections.tiers=ibr+cube|all"};
 inline constexpr ChoiceKnob<bool> kNaiveProxyLoop{
     .name = "ibr.loop",
     .meaning = "proxies that a pixel tests: those of its tile (tiles), or all of the world (naive)",
-    .choices = {{"tiles", false}, {"naive", true}}};
+    .choices = {{"tiles", false}, {"naive", true}},
+    .exact = true,
+    .same_picture = true,
+    .only_with = "reflections.tiers=ibr+cube|all"};
 
 void add_reflection_knobs(KnobRegistry& registry);
 [[nodiscard]] ReflectionKnobs reflection_knobs(const KnobRegistry& registry);

@@ -12,6 +12,7 @@
 #include "modules/reflections/bake.h"
 #include "modules/reflections/captures.h"
 #include "modules/reflections/components.h"
+#include "modules/reflections/debug/measures.h"
 #include "modules/reflections/debug/pick.h"
 #include "modules/reflections/debug/visualizers.h"
 #include "modules/reflections/frame.h"
@@ -108,10 +109,15 @@ class ReflectionsModule final : public Module {
     std::vector<ReferenceInfo> references;
     for (const std::string_view knob :
          {kReflectionMode.name, kReflectionTiers.name, kReflectionPixelRoughness.name, kReflectionBlur.name,
-          kReflectionTemporal.name, kSsrK1.name, kSsrK2.name, kSsrReach.name, kSsrRefine.name, kSsrFullResolution.name,
-          kSsrHierarchical.name, kProxyLayers.name})
+          kReflectionTemporal.name, kReflectionLightScale.name, kSsrK1.name, kSsrK2.name, kSsrReach.name,
+          kSsrRefine.name, kSsrFullResolution.name, kSsrHierarchical.name, kProxyLayers.name})
       references.push_back(traced_reflections(std::string(knob), false, &traced_extras));
     return references;
+  }
+  [[nodiscard]] std::vector<MeasureInfo> measures() const override { return proxy_measures(); }
+  [[nodiscard]] std::string idle_knob(const World& world, const RenderView& view, std::string_view knob,
+                                      const FrameCounters&) const override {
+    return idle_reflection_knob(world, view, knob);
   }
   void add_systems(Schedule& schedule) override { add_proxy_systems(schedule); }
   void prepare_view(World& world, ViewId view, const KnobRegistry& knobs) const override {

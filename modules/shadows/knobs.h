@@ -23,7 +23,8 @@ inline constexpr OnOffKnob kShadowClassify{
     .meaning =
         "test whole tiles against shadow maps first, and filter only the pixels of undecided tiles "
         "(shadows.mode=deferred)",
-    .default_value = true};
+    .default_value = true,
+    .only_with = "shadows.mode=deferred"};
 /// Values of kFilter (shadows_api.glsl).
 inline constexpr ChoiceKnob<std::uint32_t> kShadowFilter{
     .name = "shadows.filter",
@@ -31,12 +32,14 @@ inline constexpr ChoiceKnob<std::uint32_t> kShadowFilter{
         "shadow filter: one texel (hard), a kernel of fixed width (pcf), penumbrae from single fetches (pcss), "
         "or penumbrae from gathers in two mips (chs, contact hardening)",
     .choices = {{"hard", 0}, {"pcf", 1}, {"pcss", kSingleFetches}, {"chs", kContactHardening}},
-    .default_value = kContactHardening};
+    .default_value = kContactHardening,
+    .only_with = "shadows.mode=monolithic|deferred"};
 inline constexpr ChoiceKnob<std::uint32_t> kShadowKernel{.name = "shadows.kernel",
                                                          .meaning = "width of the filter kernel",
                                                          .choices = {{"4", 4}, {"8", 8}, {"12", 12}, {"16", 16}},
                                                          .default_value = 8,
-                                                         .unit = "texels"};
+                                                         .unit = "texels",
+                                                         .only_with = "shadows.filter=pcf|pcss|chs"};
 /// Values of kShadowNear.
 inline constexpr ChoiceKnob<std::uint32_t> kShadowNear{
     .name = "shadows.near",
@@ -46,9 +49,11 @@ inline constexpr ChoiceKnob<std::uint32_t> kShadowNear{
         "or always",
     .choices = {{"off", 0}, {"wide", 1}, {"all", 2}},
     .default_value = 1,
-    .exact = 2};
-inline constexpr OnOffKnob kShadowMips{
-    .name = "shadows.mips", .meaning = "filter wide penumbrae in mips of the shadow maps", .default_value = true};
+    .only_with = "shadows.filter=chs"};
+inline constexpr OnOffKnob kShadowMips{.name = "shadows.mips",
+                                       .meaning = "filter wide penumbrae in mips of the shadow maps",
+                                       .default_value = true,
+                                       .only_with = "shadows.mode=monolithic|deferred"};
 inline constexpr ChoiceKnob<std::uint32_t> kShadowMipOperator{
     .name = "shadows.mip_operator",
     .meaning =
@@ -57,31 +62,37 @@ inline constexpr ChoiceKnob<std::uint32_t> kShadowMipOperator{
     .choices = {{"nearest", GLOAM_SHADOW_MIPS_NEAREST},
                 {"average", GLOAM_SHADOW_MIPS_AVERAGE},
                 {"coverage", GLOAM_SHADOW_MIPS_COVERAGE}},
-    .default_value = GLOAM_SHADOW_MIPS_COVERAGE};
+    .default_value = GLOAM_SHADOW_MIPS_COVERAGE,
+    .only_with = "shadows.mips=on"};
 inline constexpr ChoiceKnob<bool> kSquareShadowKernel{.name = "shadows.kernel_shape",
                                                       .meaning = "shape of the kernel for the widest penumbrae",
-                                                      .choices = {{"disc", false}, {"square", true}}};
+                                                      .choices = {{"disc", false}, {"square", true}},
+                                                      .only_with = "shadows.filter=chs"};
 inline constexpr OnOffKnob kShadowReceiverPlane{
     .name = "shadows.receiver_plane",
     .meaning =
         "compare each texel of the kernel with the plane of the receiving surface, not with the receiver's depth",
-    .default_value = true};
+    .default_value = true,
+    .only_with = "shadows.mode=monolithic|deferred"};
 inline constexpr OnOffKnob kShadowTerminator{
     .name = "shadows.terminator",
     .meaning =
         "on smooth-shaded meshes, judge shadows from the smooth surface that the vertex normals describe, so "
-        "that shadow edges do not follow facets"};
+        "that shadow edges do not follow facets",
+    .only_with = "shadows.mode=monolithic|deferred"};
 inline constexpr ChoiceKnob<bool> kShadowDepth16{
     .name = "shadows.depth",
     .meaning = "depth format of shadow maps: 32-bit float, or 16-bit integer",
-    .choices = {{"d32", false}, {"d16", true}}};
+    .choices = {{"d32", false}, {"d16", true}},
+    .only_with = "shadows.mode=monolithic|deferred"};
 inline constexpr ChoiceKnob<bool> kOrientedShadowBias{
     .name = "shadows.bias",
     .meaning =
         "depth bias against self-shadowing: the rasteriser's constant bias (hardware), or an offset toward or "
         "away from the light, depending on which side of the surface faces it (oriented)",
     .choices = {{"hardware", false}, {"oriented", true}},
-    .default_value = true};
+    .default_value = true,
+    .only_with = "shadows.mode=monolithic|deferred"};
 /// Values of kSubsurfaceBias (shadows_api.glsl) are 4 and 1.
 inline constexpr ChoiceKnob<bool> kSubsurfaceBacks{
     .name = "shadows.subsurface",
@@ -91,33 +102,37 @@ inline constexpr ChoiceKnob<bool> kSubsurfaceBacks{
         "the light comes through), or without the faces toward the light and with the usual bias, because no other "
         "face of the body is nearer than its lit side (back_faces); the map then holds no thickness: all of "
         "a body lets light through as a sheet does",
-    .choices = {{"larger_bias", false}, {"back_faces", true}}};
+    .choices = {{"larger_bias", false}, {"back_faces", true}},
+    .only_with = "shadows.mode=monolithic|deferred"};
 inline constexpr NumberKnob kShadowBiasMm{.name = "shadows.bias_mm",
                                           .meaning = "depth offset of shadows.bias=oriented",
                                           .max = 20.0,
                                           .default_value = 2.0,
                                           .unit = "mm",
-                                          .ledger_values = {0.5, 1.0, 2.0, 5.0, 10.0}};
+                                          .ledger_values = {0.5, 1.0, 2.0, 5.0, 10.0},
+                                          .only_with = "shadows.bias=oriented"};
 /// One unit is 2^-23 of the depth's power of two: 0.06 to 0.12 µm per metre of distance.
 inline constexpr NumberKnob kShadowBiasUnits{.name = "shadows.bias_units",
                                              .meaning = "constant depth bias of shadows.bias=hardware",
                                              .max = 1e6,
                                              .default_value = 2000.0,
                                              .unit = "units of depth",
-                                             .ledger_values = {200.0, 1000.0, 2000.0, 10000.0, 50000.0}};
+                                             .ledger_values = {200.0, 1000.0, 2000.0, 10000.0, 50000.0},
+                                             .only_with = "shadows.bias=hardware"};
 /// Steps of a visibility; 0: it is not rounded.
 inline constexpr ChoiceKnob<std::uint32_t> kVisibilityLevels{
     .name = "shadows.visibility_bits",
     .meaning = "bits of a stored visibility, for each pixel and light; exact: not rounded",
     .choices = {{"4", 15}, {"8", 255}, {"exact", 0}},
     .default_value = 255,
-    .exact = 0};
+    .only_with = "shadows.mode=deferred"};
 inline constexpr ChoiceKnob<std::uint32_t> kShadowAtlas{
     .name = "shadows.atlas",
     .meaning = "side of the atlas, the image that holds all shadow maps of a view",
     .choices = {{"1024", 1024}, {"2048", 2048}, {"4096", 4096}, {"8192", 8192}},
     .default_value = 4096,
-    .unit = "texels"};
+    .unit = "texels",
+    .only_with = "shadows.mode=monolithic|deferred"};
 inline constexpr NumberKnob kShadowTexelsPerPixel{
     .name = "shadows.texels_per_pixel",
     .meaning = "shadow-map texels along a pixel's side; fewer if the atlas is full",
@@ -125,28 +140,33 @@ inline constexpr NumberKnob kShadowTexelsPerPixel{
     .max = 8.0,
     .default_value = 3.0,
     .unit = "texels a pixel",
-    .ledger_values = {0.5, 1.0, 2.0, 3.0, 4.0}};
+    .ledger_values = {0.5, 1.0, 2.0, 3.0, 4.0},
+    .only_with = "shadows.mode=monolithic|deferred"};
 inline constexpr ChoiceKnob<bool> kSimplifiedCasters{
     .name = "shadows.casters",
     .meaning = "triangles drawn into shadow maps: all of them, or a simplified mesh with fewer",
-    .choices = {{"full", false}, {"simplified", true}}};
+    .choices = {{"full", false}, {"simplified", true}},
+    .only_with = "shadows.mode=monolithic|deferred"};
 inline constexpr std::uint32_t kMostSlotsAndPairs = 4194301;
 inline constexpr IntegerKnob<std::uint32_t> kShadowSlotLimit{
     .name = "shadows.slot_limit",
     .meaning = "most visibility slots of a view; tiles without a free slot are shaded as with shadows.mode=monolithic",
     .max = kMostSlotsAndPairs,
-    .default_value = kMostSlotsAndPairs};
+    .default_value = kMostSlotsAndPairs,
+    .only_with = "shadows.mode=deferred"};
 inline constexpr IntegerKnob<std::uint32_t> kShadowPairLimit{
     .name = "shadows.pair_limit",
     .meaning =
         "most tile-light pairs of a view; tiles whose pairs do not fit are shaded as with "
         "shadows.mode=monolithic",
     .max = kMostSlotsAndPairs,
-    .default_value = kMostSlotsAndPairs};
+    .default_value = kMostSlotsAndPairs,
+    .only_with = "shadows.mode=deferred"};
 inline constexpr OnOffKnob kShadowEarlyOuts{
     .name = "shadows.early_outs",
     .meaning = "stop filtering as soon as the result is known; off: only to measure the whole filter",
-    .default_value = true};
+    .default_value = true,
+    .only_with = "shadows.filter=pcf|pcss|chs"};
 
 /// The module's knobs as numbers (shadows.NAME, see add_shadow_knobs).
 struct ShadowKnobs {

@@ -15,6 +15,7 @@
 #include "modules/shadows/components.h"
 #include "modules/shadows/debug/enclosed_lights.h"
 #include "modules/shadows/debug/final_list_views.h"
+#include "modules/shadows/debug/idle_knobs.h"
 #include "modules/shadows/debug/measures.h"
 #include "modules/shadows/debug/pick.h"
 #include "modules/shadows/debug/reference_visualizers.h"
@@ -51,6 +52,10 @@ class ShadowsModule final : public Module {
   void knobs(KnobRegistry& registry) const override { add_shadow_knobs(registry); }
   [[nodiscard]] std::vector<ReferenceInfo> references() const override { return shadow_references(); }
   [[nodiscard]] std::vector<MeasureInfo> measures() const override { return shadow_measures(); }
+  [[nodiscard]] std::string idle_knob(const World& world, const RenderView&, std::string_view knob,
+                                      const FrameCounters& counters) const override {
+    return idle_shadow_knob(world, knob, counters);
+  }
   void add_systems(Schedule& schedule) override { add_shadow_systems(schedule); }
 
   [[nodiscard]] bool shows_surfaces(const World&, const RenderView&) const override { return false; }

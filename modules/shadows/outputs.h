@@ -55,8 +55,7 @@ inline constexpr EnumKnob<ShadowMode> kShadowMode{
         "when shadows are computed: never; during shading, for each pixel and light (monolithic); or before "
         "shading, for each pair of an 8x8 tile and a light that is neither wholly lit nor wholly unlit "
         "(deferred)",
-    .default_value = ShadowMode::deferred,
-    .exact = ShadowMode::monolithic};
+    .default_value = ShadowMode::deferred};
 
 /// A square of texels in an atlas. Its origin is a multiple of its size.
 struct AtlasSquare {

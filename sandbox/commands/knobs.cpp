@@ -46,6 +46,8 @@ Json json_of(const KnobRegistry& registry) {
     else
       row["min"] = knob.min, row["max"] = knob.max;
     if (!knob.exact.empty()) row["exact"] = knob.exact;
+    if (!knob.taste.empty()) row["taste"] = knob.taste;
+    if (!knob.only_with.empty()) row["only_with"] = knob.only_with;
     json["knobs"].push_back(std::move(row));
   }
   return json;

@@ -113,8 +113,11 @@ struct EnumKnob {
   std::string_view name;
   std::string_view meaning;
   E default_value{};
-  std::optional<E> exact{};  ///< Knob::exact
+  std::optional<E> exact{};  ///< this and the next ones: see Knob
   std::string_view unit{};
+  std::string_view taste{};
+  bool same_picture = false;
+  std::string_view only_with{};
 
   [[nodiscard]] constexpr E value_of(double number) const {
     constexpr double kCount = static_cast<double>(choices_of_enum<E>().size());
@@ -144,6 +147,9 @@ struct ChoiceKnob {
   T default_value{};  ///< one of the choices' values
   std::optional<T> exact{};
   std::string_view unit{};
+  std::string_view taste{};
+  bool same_picture = false;
+  std::string_view only_with{};
 
   [[nodiscard]] constexpr const T& value_of(double number) const {
     const bool known = number >= 0.0 && number < static_cast<double>(choices.size());
@@ -169,6 +175,9 @@ struct RangeKnob {
   std::optional<T> exact{};
   std::string_view unit{};
   KnobItems<double> ledger_values{};  ///< Knob::ledger_values
+  std::string_view taste{};
+  bool same_picture = false;
+  std::string_view only_with{};
 
   [[nodiscard]] constexpr T value_of(double number) const { return static_cast<T>(number); }
   [[nodiscard]] constexpr double number_of(T value) const { return static_cast<double>(value); }
@@ -209,6 +218,9 @@ template <class K>
   knob.default_number = reference.number_of(reference.default_value);
   knob.unit = reference.unit;
   if (reference.exact) knob.exact = text_of(reference, *reference.exact);
+  knob.taste = reference.taste;
+  knob.same_picture = reference.same_picture;
+  knob.only_with = reference.only_with;
   return knob;
 }
 

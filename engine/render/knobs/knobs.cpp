@@ -63,6 +63,8 @@ void KnobRegistry::add(Knob knob) {
                "knob " + knob.name + ": its default lies outside its range");
   GLOAM_ASSERT(knob.exact.empty() || parse_value(knob, knob.exact),
                "knob " + knob.name + ": its exact value is none of its values");
+  GLOAM_ASSERT(knob.taste.empty() || (knob.exact.empty() && !knob.same_picture),
+               "knob " + knob.name + ": a taste has no exact value");
   values_.push_back(knob.default_number);
   knobs_.push_back(std::move(knob));
 }
@@ -126,6 +128,24 @@ void KnobRegistry::store(std::string_view name, Knob::Type type, double value) {
                "knob " + std::string(name) + " must be " + valid_values(knobs_[i]));
   values_[i] = value;
   ++version_;
+}
+
+std::string KnobRegistry::unmet_setting(const Knob& knob) const {
+  const Knob* asked = &knob;
+  for (std::size_t chain = 0; chain < knobs_.size() && !asked->only_with.empty(); ++chain) {
+    const std::size_t equals = asked->only_with.find('=');
+    const Knob* other = find(std::string_view(asked->only_with).substr(0, equals));
+    if (other == nullptr) return {};  // a host leaves its module out
+    const std::string wanted = "|" + asked->only_with.substr(equals + 1) + "|";
+    if (wanted.find("|" + text(*other) + "|") == std::string::npos) {
+      std::string setting = asked->only_with;
+      for (std::size_t bar = setting.find('|'); bar != std::string::npos; bar = setting.find('|'))
+        setting.replace(bar, 1, " or ");
+      return "only with " + setting + ", which is " + text(*other);
+    }
+    asked = other;
+  }
+  return {};
 }
 
 double KnobRegistry::number(const Knob& knob) const { return values_[index_of(knob)]; }

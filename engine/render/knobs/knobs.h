@@ -30,6 +30,14 @@ struct Knob {
   /// Text of the exact value: the frame drawn with it is the reference for the other values. Empty: all values are
   /// equally right, or the module judges the knob by its own reference (Module::references).
   std::string exact;
+  /// Why no value is more right than another, in a few words: "a tone curve is a look". The ledger shows it in place of
+  /// errors, and the knob has no reference. Empty: the knob has an error.
+  std::string taste;
+  /// The values are methods for one result: a picture that differs from the reference in one bit is wrong.
+  bool same_picture = false;
+  /// Setting of another knob without which this one changes nothing: "shadows.mode=deferred", or with alternatives,
+  /// "shadows.filter=pcss|chs". Empty: none.
+  std::string only_with;
 };
 
 /// A knob's value as text (KnobRegistry::set), for one view or while a measure counts. override_of() makes one.
@@ -81,6 +89,9 @@ class KnobRegistry {
   [[nodiscard]] const std::vector<Knob>& knobs() const { return knobs_; }
   /// For names from users; null if the knob is not declared here.
   [[nodiscard]] const Knob* find(std::string_view name) const;
+  /// Knob::only_with of this knob or, if that is met, of the knob that it names, and so on: the first setting that is
+  /// not met, and the current value: "only with shadows.mode=deferred, which is off". Empty: all are met.
+  [[nodiscard]] std::string unmet_setting(const Knob& knob) const;
   /// Incremented whenever a value is set.
   [[nodiscard]] std::uint64_t version() const { return version_; }
 

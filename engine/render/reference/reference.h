@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "engine/core/result.h"
 #include "engine/ecs/world.h"
@@ -57,6 +58,12 @@ struct ReferenceInput {
   std::function<void(std::size_t done, std::size_t total)> progress;
 };
 
+/// Distance from the truth, over many things that move.
+struct MovedDistance {
+  double mean = 0.0;
+  double p99 = 0.0;
+};
+
 /// Reference for a knob that is not judged by the frame at Knob::exact: a picture that the module computes on the CPU.
 /// Deterministic: the same input gives the same picture with any executor.
 ///
@@ -74,7 +81,14 @@ struct ReferenceInfo {
   std::string name;            ///< name for the ledger: "tone curve on the CPU"
   bool follows_value = false;  ///< see above
   bool samples = false;        ///< uses ReferenceInput::samples; its noise is the change from half of them to all
+  /// Knobs of the frame that a reference with `follows_value` false is computed from, and of the frames that it draws.
+  std::vector<KnobOverride> drawn_with = {};
+  /// Empty: pictures are judged by Knob::exact, and `distance` is set.
   std::function<Result<FramePictures>(const ReferenceInput&)> draw;
+  /// An error beside that of the pictures, for each value, from its frame; none if the frame has nothing to measure.
+  /// The ledger shows it as the knob's error. Empty: there is none. `frame` of the input may be absent.
+  std::function<Result<std::optional<MovedDistance>>(const ReferenceInput&)> distance = {};
+  std::string unit = {};  ///< of `distance`: "mm at the tip"
 };
 
 }  // namespace gloam

@@ -115,6 +115,7 @@ Result<TimedRow> KnobMeasurement::measure(const std::string& value) {
   const auto bytes = subject_.gpu_bytes();
   if (!bytes) return bytes.error();
   row.gpu_bytes = *bytes;
+  if (row.is_default) row.no_effect_reason = subject_.no_effect_reason(knob_);
   return measured;
 }
 
@@ -148,17 +149,35 @@ Result<KnobMeasurement::Drawn> KnobMeasurement::draw() {
 
 Status KnobMeasurement::judge(const std::string& value, LedgerRow& row) {
   if (measure_) return judge_by_measure(value, row);
-  if (!reference_ && knob_.exact.empty()) {
+  if (!draws_reference() && knob_.exact.empty()) {
+    row.no_reference = knob_.taste;
     const auto drawn = draw(value);
     if (!drawn) return drawn.error();
     row.picture = hash_of(drawn->frame);
-    return progress_.picture(row.picture, drawn->frame.picture);
+    GLOAM_TRY(progress_.picture(row.picture, drawn->frame.picture));
+    return judge_distance(row);
   }
-  const bool serves_all = !reference_ || !reference_->follows_value;
+  const bool serves_all = !draws_reference() || !reference_->follows_value;
   if (serves_all && !common_reference_) GLOAM_TRY(draw_common_reference());
   const auto drawn = draw(value);
   if (!drawn) return drawn.error();
-  return reference_ ? judge_by_module(value, *drawn, row) : judge_by_exact(*drawn, row);
+  GLOAM_TRY(judge_distance(row));
+  return draws_reference() ? judge_by_module(value, *drawn, row) : judge_by_exact(*drawn, row);
+}
+
+Status KnobMeasurement::judge_distance(LedgerRow& row) {
+  if (!reference_ || !reference_->distance) return {};
+  row.reference_kind = reference_->kind;
+  row.reference_name = reference_->name;
+  const auto distance = subject_.measure_distance(*reference_);
+  if (!distance) return distance.error();
+  if (*distance) row.counted = CountedError{(*distance)->mean, reference_->unit, (*distance)->p99};
+  return {};
+}
+
+void KnobMeasurement::check_same_picture(const NoisyReference& reference, LedgerRow& row) const {
+  if (!knob_.same_picture || !row.wrong.empty() || row.picture == reference.hash) return;
+  row.wrong = "its picture is not equal to the bit to that of " + row.reference_name;
 }
 
 Status KnobMeasurement::compare(const NoisyReference& reference, const FramePictures& frame, LedgerRow& row) {
@@ -178,9 +197,12 @@ Status KnobMeasurement::compare(const NoisyReference& reference, const FramePict
 }
 
 Status KnobMeasurement::draw_common_reference() {
-  auto drawn = draw(reference_ ? default_ : knob_.exact);
+  GLOAM_TRY(set(draws_reference() ? default_ : knob_.exact));
+  KnobOverrides overrides(subject_.knobs());
+  if (draws_reference()) GLOAM_TRY(overrides.set(reference_->drawn_with));
+  auto drawn = draw();
   if (!drawn) return drawn.error();
-  if (!reference_) {
+  if (!draws_reference()) {
     exact_sequence_ = std::move(drawn->sequence);
     const std::string hash = hash_of(drawn->frame);
     common_reference_.emplace(NoisyReference{PictureJudge(std::move(drawn->frame)), hash});
@@ -223,13 +245,16 @@ Status KnobMeasurement::judge_by_measure(const std::string& value, LedgerRow& ro
   if (const auto error = measure_->error(counters, standard_)) row.counted = CountedError{*error, measure_->unit};
   row.wrong = measure_->fault(counters);
   GLOAM_TRY(compare(*common_reference_, drawn->frame, row));
+  check_same_picture(*common_reference_, row);
   return request_.sequence < 2 ? Status() : judge_sequence(exact_sequence_, drawn->sequence, row);
 }
 
 Status KnobMeasurement::judge_by_exact(const Drawn& drawn, LedgerRow& row) {
-  row.reference_kind = "brute force";
-  row.reference_name = knob_.name + "=" + knob_.exact;
+  const std::string exact = knob_.name + "=" + knob_.exact;
+  row.reference_name = row.reference_name.empty() ? exact : row.reference_name + "; pictures against " + exact;
+  if (row.reference_kind.empty()) row.reference_kind = "brute force";
   GLOAM_TRY(compare(*common_reference_, drawn.frame, row));
+  check_same_picture(*common_reference_, row);
   return request_.sequence < 2 ? Status() : judge_sequence(exact_sequence_, drawn.sequence, row);
 }
 

@@ -53,6 +53,12 @@ class KnobMeasurement {
   [[nodiscard]] Result<Drawn> draw();
   [[nodiscard]] Result<Drawn> draw(const std::string& value);
   [[nodiscard]] Status judge(const std::string& value, LedgerRow& row);
+  /// Whether the module has a reference that is pictures, not only a distance.
+  [[nodiscard]] bool draws_reference() const { return reference_ && (reference_->draw || !reference_->distance); }
+  /// Sets row.counted if the module's reference has a distance. The last frame is that of the row's value.
+  [[nodiscard]] Status judge_distance(LedgerRow& row);
+  /// Marks the row wrong if its picture must be that of the reference and is not. The row has its picture.
+  void check_same_picture(const NoisyReference& reference, LedgerRow& row) const;
   /// Sets the row's errors and pictures by a reference, and gives the pictures to progress_.
   [[nodiscard]] Status compare(const NoisyReference& reference, const FramePictures& frame, LedgerRow& row);
   /// Draws the reference that all values are compared with.

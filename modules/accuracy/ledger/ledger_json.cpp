@@ -18,6 +18,7 @@ ErrorPair pair_of(const Json& json) { return {json.at("mean").get<double>(), jso
 Json errors_json(const LedgerRow& row) {
   Json json = Json::object();
   if (row.counted) json["counted"] = {{"value", row.counted->value}, {"unit", row.counted->unit}};
+  if (row.counted && row.counted->p99) json["counted"]["p99"] = *row.counted->p99;
   if (row.flip) json["flip"] = pair_json(*row.flip);
   if (row.rmse) json["rmse"] = *row.rmse;
   if (row.rmse_p99) json["rmse_p99"] = *row.rmse_p99;
@@ -27,9 +28,11 @@ Json errors_json(const LedgerRow& row) {
 }
 
 void read_errors(const Json& json, LedgerRow& row) {
-  if (json.contains("counted"))
-    row.counted =
-        CountedError{json["counted"].at("value").get<double>(), json["counted"].at("unit").get<std::string>()};
+  if (json.contains("counted")) {
+    const Json& counted = json["counted"];
+    row.counted = CountedError{counted.at("value").get<double>(), counted.at("unit").get<std::string>(), {}};
+    if (counted.contains("p99")) row.counted->p99 = counted["p99"].get<double>();
+  }
   if (json.contains("flip")) row.flip = pair_of(json["flip"]);
   if (json.contains("rmse")) row.rmse = json["rmse"].get<double>();
   if (json.contains("rmse_p99")) row.rmse_p99 = json["rmse_p99"].get<double>();
@@ -41,6 +44,7 @@ void read_errors(const Json& json, LedgerRow& row) {
 Json json_of(const LedgerRow& row) {
   Json json = {{"knob", row.knob}, {"value", row.value}, {"default", row.is_default}};
   json["reference"] = {{"kind", row.reference_kind}, {"name", row.reference_name}, {"noise", row.reference_noise}};
+  json["no_reference"] = row.no_reference;
   json["error"] = errors_json(row);
   json["below_noise"] = row.below_noise;
   json["wrong"] = row.wrong;
@@ -59,6 +63,7 @@ Json json_of(const LedgerRow& row) {
   json["worst"] = Json::array();
   for (const PictureArea& area : row.worst) json["worst"].push_back({area.x, area.y, area.width, area.height});
   json["no_effect"] = row.no_effect;
+  json["no_effect_reason"] = row.no_effect_reason;
   json["front"] = row.on_front;
   return json;
 }
@@ -98,6 +103,8 @@ LedgerRow row_of(const Json& json) {
     row.worst.push_back({area.at(0).get<std::uint32_t>(), area.at(1).get<std::uint32_t>(),
                          area.at(2).get<std::uint32_t>(), area.at(3).get<std::uint32_t>()});
   row.no_effect = json.value("no_effect", false);
+  row.no_reference = json.value("no_reference", "");
+  row.no_effect_reason = json.value("no_effect_reason", "");
   row.on_front = json.at("front").get<bool>();
   return row;
 }

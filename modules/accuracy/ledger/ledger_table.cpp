@@ -23,6 +23,12 @@ std::string error_text(const LedgerRow& row, const double* value) {
   return row.below_noise ? "< noise" : formatted("%.6f", *value);
 }
 
+std::string counted_text(const LedgerRow& row) {
+  if (!row.counted) return {};
+  const std::string value = formatted("%.3f", row.counted->value);
+  return row.counted->p99 ? value + formatted(", p99 %.3f", *row.counted->p99) : value;
+}
+
 Line line_of(const LedgerRow& row) {
   return {!row.wrong.empty()                 ? "!"
           : row.on_front                     ? "*"
@@ -30,7 +36,7 @@ Line line_of(const LedgerRow& row) {
                                              : "",
           row.knob,
           row.value + (row.is_default ? " (default)" : ""),
-          row.counted ? formatted("%.3f", row.counted->value) : "",
+          counted_text(row),
           error_text(row, row.flip ? &row.flip->mean : nullptr),
           error_text(row, row.flip ? &row.flip->p99 : nullptr),
           error_text(row, row.rmse ? &*row.rmse : nullptr),
@@ -69,7 +75,7 @@ std::string judgements(const std::vector<LedgerRow>& rows) {
   std::string text;
   for (const LedgerRow& row : rows) {
     std::string line = row.knob + ": " +
-                       (row.reference_kind.empty() ? "no reference: no value is more right than another"
+                       (row.reference_kind.empty() ? "no reference: " + no_reference_text(row)
                                                    : row.reference_kind + ", " + row.reference_name);
     if (row.counted) line += "; counted: " + row.counted->unit;
     if (text.find(line + "\n") == std::string::npos) text += line + "\n";
@@ -91,6 +97,13 @@ bool changes_nothing(const Ledger& ledger, std::string_view knob) {
   return values > 1;
 }
 
+/// Of the default's row; a ledger may lack it.
+std::string reason_of(const Ledger& ledger, std::string_view knob) {
+  for (const LedgerRow& row : ledger.rows)
+    if (row.knob == knob && row.is_default) return row.no_effect_reason;
+  return {};
+}
+
 /// A line for each knob that changes nothing.
 std::string without_effect(const Ledger& ledger) {
   std::string text;
@@ -98,13 +111,18 @@ std::string without_effect(const Ledger& ledger) {
   for (const LedgerRow& row : ledger.rows) {
     if (row.knob == last || !changes_nothing(ledger, row.knob)) continue;
     last = row.knob;
-    text +=
-        row.knob + ": no effect here: the pictures of all values are equal, and no difference in time is significant\n";
+    const std::string reason = reason_of(ledger, row.knob);
+    text += row.knob + ": no effect here: " + (reason.empty() ? "" : reason + "; ") +
+            "the pictures of all values are equal, and no difference in time is significant\n";
   }
   return text;
 }
 
 }  // namespace
+
+std::string no_reference_text(const LedgerRow& row) {
+  return row.no_reference.empty() ? "no value is more right than another" : row.no_reference;
+}
 
 std::string ledger_table(const Ledger& ledger) {
   std::vector<Line> lines = {kTitles};

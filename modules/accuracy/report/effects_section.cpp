@@ -43,7 +43,7 @@ std::string knob_gain(const KnobResults& knob) {
     return "<p>No value is significantly cheaper than the default.</p>\n";
   return "<p>The cheapest value, <code>" + escaped(cheapest->value) + "</code>, takes " + ratio_text(*cheapest) +
          " of the frame’s time and gives back " + ms_text(knob.standard->ms.median_ms * (1.0 - cheapest->ratio)) +
-         "; error " + escaped(error_text_of(*cheapest)) + ".</p>\n";
+         (cheapest->error() ? "; error " + escaped(error_text_of(*cheapest)) : "") + ".</p>\n";
 }
 
 std::string knob_article(const KnobResults& knob) {
@@ -53,7 +53,7 @@ std::string knob_article(const KnobResults& knob) {
   const LedgerRow& first = *knob.rows.front();
   html += "<p class=\"reference\">" +
           (first.reference_kind.empty()
-               ? std::string("No reference: no value is more right than another.")
+               ? "No reference: " + escaped(no_reference_text(first)) + "."
                : "Reference: " + escaped(first.reference_kind + ", " + first.reference_name) +
                      (first.reference_noise > 0.0 ? "; its own noise is " + number_text(first.reference_noise) : "") +
                      ".") +
@@ -80,7 +80,9 @@ std::string folded_knobs(const ReportData& data) {
   std::size_t count = 0;
   for (const KnobResults& knob : data.knobs) {
     if (!knob.no_effect) continue;
-    list += "<li><code>" + escaped(knob.name) + "</code> (" + std::to_string(knob.rows.size()) + " values)</li>\n";
+    const std::string reason = knob.standard == nullptr ? "" : knob.standard->no_effect_reason;
+    list += "<li><code>" + escaped(knob.name) + "</code> (" + std::to_string(knob.rows.size()) + " values)" +
+            (reason.empty() ? "" : ": " + escaped(reason)) + "</li>\n";
     ++count;
   }
   if (count == 0) return {};

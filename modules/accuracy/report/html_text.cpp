@@ -84,6 +84,8 @@ std::string_view visibility_words(double flip) {
 std::string error_text_of(const LedgerRow& row) {
   const std::optional<double> error = row.error();
   if (!error) return "no reference";
+  if (row.counted && row.counted->p99)
+    return number_text(*error) + " (p99 " + number_text(*row.counted->p99) + ") " + row.counted->unit;
   if (row.counted) return number_text(*error) + " " + row.counted->unit;
   if (!row.flip) return number_text(*error) + " cd/m² RMSE" + (row.below_noise ? ", at most (noise)" : "");
   if (*error == 0.0) return "0 FLIP: equal to the reference";

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "engine/core/hash.h"
 #include "engine/math/low_discrepancy.h"
 #include "engine/math/srgb.h"
 #include "modules/lighting/outputs.h"
@@ -34,17 +36,28 @@ LensPoint shifted(const RenderView& view, const glm::dvec2& pixels) {
   return {view.camera_entity, -kFocus * offset, kFocus};
 }
 
-}  // namespace
+std::uint32_t samples_of(const ReferenceInput& input) { return std::clamp(input.samples, 1u, kMostSamples); }
 
-Result<FramePictures> draw_supersampled(const ReferenceInput& input) {
-  if (!input.redraw) return Error{ErrorKind::usage, "a supersampled picture needs a frame that can be drawn again"};
-  const std::uint32_t samples = std::clamp(input.samples, 1u, kMostSamples);
-  FramePictures mean;
-  mean.picture = input.frame.picture;
+/// Everything that the picture is computed from: the frame, its view, all knobs and the number of samples.
+std::string identity_of(const ReferenceInput& input) {
+  Hasher hasher;
+  hasher.bytes(std::as_bytes(std::span(input.frame.picture.rgba)));
+  hasher.bytes(std::as_bytes(std::span(input.frame.linear.rgba)));
+  hasher.bytes_of(input.view.position).bytes_of(input.view.view_from_relative).bytes_of(input.view.clip_from_view);
+  std::string identity = "supersampled 1, frame " + std::to_string(hasher.digest()) + ", " +
+                         std::to_string(input.view.width) + "x" + std::to_string(input.view.height) + ", samples " +
+                         std::to_string(samples_of(input));
+  for (const Knob& knob : input.knobs.knobs()) identity += " " + knob.name + "=" + input.knobs.text(knob);
+  return identity;
+}
+
+/// Sets the picture to the mean of the samples.
+Status accumulate(const ReferenceInput& input, Picture& mean) {
+  const std::uint32_t samples = samples_of(input);
   std::vector<double> linear(256);
   for (std::size_t value = 0; value < linear.size(); ++value)
     linear[value] = srgb_to_linear(static_cast<double>(value) / 255.0);
-  std::vector<double> sums(mean.picture.rgba.size(), 0.0);
+  std::vector<double> sums(mean.rgba.size(), 0.0);
   for (std::uint32_t i = 0; i < samples; ++i) {
     const auto frame = input.redraw(
         [&](World& world) {
@@ -61,8 +74,26 @@ Result<FramePictures> draw_supersampled(const ReferenceInput& input) {
     if (input.progress) input.progress(i + 1, samples);
   }
   for (std::size_t at = 0; at < sums.size(); ++at)
-    mean.picture.rgba[at] =
+    mean.rgba[at] =
         at % 4 == 3 ? 255 : static_cast<std::uint8_t>(std::lround(255.0 * linear_to_srgb(sums[at] / samples)));
+  return {};
+}
+
+}  // namespace
+
+Result<FramePictures> draw_supersampled(const ReferenceInput& input) {
+  if (!input.redraw) return Error{ErrorKind::usage, "a supersampled picture needs a frame that can be drawn again"};
+  const std::string identity = identity_of(input);
+  FramePictures mean;
+  mean.picture = input.frame.picture;
+  if (const auto kept = input.store == nullptr ? std::nullopt : input.store->load(identity);
+      kept && kept->size() == mean.picture.rgba.size()) {
+    mean.picture.rgba.assign(kept->begin(), kept->end());
+    return mean;
+  }
+  GLOAM_TRY(accumulate(input, mean.picture));
+  const auto& bytes = mean.picture.rgba;
+  if (input.store != nullptr) GLOAM_TRY(input.store->save(identity, std::string(bytes.begin(), bytes.end())));
   return mean;
 }
 

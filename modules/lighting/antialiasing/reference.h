@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <string>
-
 #include "engine/render/reference/reference.h"
 
 namespace gloam {
@@ -14,8 +12,5 @@ struct PointSampledFrame {};
 
 /// The mean of pictures whose pixels were sampled at different points, in linear light. Draws up to 64 frames.
 [[nodiscard]] Result<FramePictures> draw_supersampled(const ReferenceInput& input);
-
-/// draw_supersampled as the reference of a knob.
-[[nodiscard]] ReferenceInfo supersampled_reference(std::string knob);
 
 }  // namespace gloam

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <iterator>
 #include <memory>
 #include <string_view>
 #include <utility>
@@ -125,13 +124,9 @@ ReferenceInfo traced_shadows(std::string knob) {
 std::vector<ReferenceInfo> shadow_references() {
   KnobRegistry registry;
   add_shadow_knobs(registry);
-  // Knobs without this reference: mode and visibility_bits have an exact value, classify has a measure
-  // (shadow_measures()), and limits have no right value.
-  constexpr std::string_view kOthers[] = {kShadowMode.name, kShadowClassify.name, kVisibilityLevels.name,
-                                          kShadowSlotLimit.name, kShadowPairLimit.name};
   std::vector<ReferenceInfo> references;
   for (const Knob& knob : registry.knobs()) {
-    if (std::find(std::begin(kOthers), std::end(kOthers), knob.name) != std::end(kOthers)) continue;
+    if (knob.name == kShadowClassify.name) continue;  // it has a measure: shadow_measures()
     references.push_back(traced_shadows(knob.name));
     references.back().follows_value = knob.name == kShadowTerminator.name;  // rays begin where receivers are judged
   }

@@ -26,8 +26,8 @@ namespace gloam {
 /// `shades` to false, so that shading does not use it.
 [[nodiscard]] Status put_traced_visibility(World& world, const ReferenceInput& input);
 
-/// The reference "frame shaded with traced visibility" for each knob of the module that changes shadows. Knobs with an
-/// exact value, counted knobs and limits are left out.
+/// The reference "frame shaded with traced visibility" for each knob of the module but the counted one. No value of
+/// them is exact: which one is nearest to traced light depends on the scene.
 [[nodiscard]] std::vector<ReferenceInfo> shadow_references();
 
 }  // namespace gloam

@@ -109,16 +109,40 @@ Result<FramePictures> SessionCosts::draw_reference(const ReferenceInfo& referenc
     if (!read) return read.error();
     traced = std::move(read).value();
   }
-  return reference.draw({.world = session_.world,
-                         .view = session_.world.view_resource<RenderView>(request_.settings.id),
-                         .knobs = knobs(),
-                         .frame = frame,
-                         .samples = samples,
-                         .executor = *session_.executor,
-                         .tracer = traced.tracer.get(),
-                         .geometry = needs_rays ? &traced.geometry : nullptr,
-                         .redraw = [this](const auto& change, const auto& restore) { return redraw(change, restore); },
-                         .store = store_.get()});
+  ReferenceInput input = input_of(frame, samples);
+  input.tracer = traced.tracer.get();
+  input.geometry = needs_rays ? &traced.geometry : nullptr;
+  return reference.draw(input);
+}
+
+Result<std::optional<MovedDistance>> SessionCosts::measure_distance(const ReferenceInfo& reference) {
+  const FramePictures none;
+  return reference.distance(input_of(none, 1));
+}
+
+std::string SessionCosts::no_effect_reason(const Knob& knob) {
+  if (std::string unmet = knobs().unmet_setting(knob); !unmet.empty()) return unmet;
+  const World& world = session_.world;
+  const RenderView& view = world.view_resource<RenderView>(request_.settings.id);
+  for (const auto& module : session_.renderer->modules()) {
+    if (module->name() != knob.module) continue;
+    if (std::string off = module->switched_off(world, knobs()); !off.empty()) return off;
+    if (const Demand demand = module->demand(world, nullptr); !demand.needed) return demand.reason;
+    if (const Demand demand = module->demand(world, &view); !demand.needed) return demand.reason;
+    return module->idle_knob(world, view, knob.name, counters());
+  }
+  return {};
+}
+
+ReferenceInput SessionCosts::input_of(const FramePictures& frame, std::uint32_t samples) {
+  return {.world = session_.world,
+          .view = session_.world.view_resource<RenderView>(request_.settings.id),
+          .knobs = knobs(),
+          .frame = frame,
+          .samples = samples,
+          .executor = *session_.executor,
+          .redraw = [this](const auto& change, const auto& restore) { return redraw(change, restore); },
+          .store = store_.get()};
 }
 
 }  // namespace gloam

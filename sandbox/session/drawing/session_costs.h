@@ -27,6 +27,8 @@ class SessionCosts final : public CostSubject {
   [[nodiscard]] Result<FramePictures> read() override;
   [[nodiscard]] Result<FramePictures> draw_reference(const ReferenceInfo& reference, const FramePictures& frame,
                                                      std::uint32_t samples) override;
+  [[nodiscard]] Result<std::optional<MovedDistance>> measure_distance(const ReferenceInfo& reference) override;
+  [[nodiscard]] std::string no_effect_reason(const Knob& knob) override;
 
  private:
   /// Draws frames as the timing of a row does, until what a session's first frames need is freed. Without that the
@@ -35,6 +37,9 @@ class SessionCosts final : public CostSubject {
   /// Draws the last frame again after `change` has modified the world, then calls `restore`.
   [[nodiscard]] Result<FramePictures> redraw(const std::function<void(World&)>& change,
                                              const std::function<void(World&)>& restore);
+
+  /// Of the last frame; without what rays need. frame must outlive it.
+  [[nodiscard]] ReferenceInput input_of(const FramePictures& frame, std::uint32_t samples);
 
   Session& session_;
   const Options& options_;

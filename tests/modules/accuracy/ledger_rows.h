@@ -19,7 +19,10 @@ inline LedgerRow full_row(std::uint32_t seed = 1) {
   row.reference_name = "visibility, traced\nin jobs";
   row.reference_noise = number(random) * 1e-4;
   row.below_noise = seed % 3 == 0;
-  if (seed % 4 == 1) row.counted = CountedError{number(random) * 100.0, "false positives a tile, \"all\""};
+  if (seed % 4 == 1) row.counted = CountedError{number(random) * 100.0, "false positives a tile, \"all\"", {}};
+  if (seed % 3 == 2) row.counted = CountedError{number(random), "mm", number(random)};
+  row.no_reference = seed % 2 == 0 ? "" : "a look, \"warm\"";
+  row.no_effect_reason = "no lamp, " + std::to_string(seed);
   if (seed % 5 == 4) row.wrong = "3 lights, missing";
   row.flip = ErrorPair{number(random), number(random)};
   row.rmse = number(random) * 1e3;

@@ -12,129 +12,21 @@
 #include "engine/math/srgb.h"
 #include "engine/render/knobs/knob_table.h"
 #include "modules/accuracy/module.h"
+#include "tests/modules/accuracy/fake_subject.h"
 #include "tests/support/expect_assert.h"
 #include "tests/support/temporary_folder.h"
 
 namespace gloam {
 namespace {
 
-using test::TestFolder;
+using test::FakeSubject;
+using test::kCount;
+using test::kSamples;
+using test::kSide;
+using test::MeasureCosts;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-constexpr std::uint32_t kSide = 4;
-
-constexpr IntegerKnob<std::uint32_t> kSamples{.name = "fake.samples",
-                                              .meaning = "",
-                                              .min = 1,
-                                              .max = 64,
-                                              .default_value = 4,
-                                              .exact = 64,
-                                              .ledger_values = {1, 4, 16}};
-constexpr OnOffKnob kCount{.name = "fake.count", .meaning = ""};
-
-/// A fake renderer: "samples" makes the picture brighter by 1/samples and costs that many milliseconds; no value of
-/// "look" is more right than another.
-class FakeSubject final : public CostSubject {
- public:
-  FakeSubject() {
-    knobs_.add(declaration_of(kSamples, "fake"));
-    knobs_.add({.name = "fake.look", .module = "fake", .choices = {"warm", "cold"}});
-    knobs_.add(declaration_of(kCount, "fake"));
-  }
-
-  [[nodiscard]] KnobRegistry& knobs() override { return knobs_; }
-  [[nodiscard]] std::vector<ReferenceInfo> references() const override { return references_; }
-  [[nodiscard]] std::vector<MeasureInfo> measures() const override { return measures_; }
-  [[nodiscard]] FrameCounters counters() override {
-    if (!knobs_.value(kCount)) return {};
-    return {{"fake.work", static_cast<double>(knobs_.value(kSamples))}};
-  }
-  [[nodiscard]] Result<FrameCost> draw(std::int32_t index) override {
-    ++frames_drawn;
-    indices.push_back(index);
-    index_ = index;
-    if (fail_after > 0 && frames_drawn > fail_after) return Error{ErrorKind::failed, "the device is lost"};
-    counted_frames += knobs_.value(kCount) ? 1 : 0;
-    const double gpu_ms = knobs_.value(kSamples) + slower_by * frames_drawn;
-    return FrameCost{.cpu_ms = 1.0, .gpu_ms = gpu_ms, .modules = {{"other", 7.0, 7.0}, {"fake", 0.5, gpu_ms / 2.0}}};
-  }
-  [[nodiscard]] Result<std::uint64_t> gpu_bytes() override { return std::uint64_t{knobs_.value(kSamples)} * 100; }
-  [[nodiscard]] Result<FramePictures> read() override { return pictures(brightness()); }
-  [[nodiscard]] Result<FramePictures> draw_reference(const ReferenceInfo&, const FramePictures& frame,
-                                                     std::uint32_t samples) override {
-    ++references_drawn;
-    return reference(frame, samples);
-  }
-
-  [[nodiscard]] double brightness() const {
-    const double error = 1.0 / knobs_.value(kSamples);
-    // The exact value does not flicker; the others do.
-    return 0.25 + (knobs_.value(kSamples) == 64 ? 0.0 : error * (index_ % 2 == 0 ? 0.5 : 0.25));
-  }
-  static FramePictures pictures(double brightness) {
-    const auto encoded = static_cast<std::uint8_t>(std::lround(255.0 * brightness));
-    return {.linear = {kSide, kSide, std::vector<float>(kSide * kSide * 4, static_cast<float>(brightness))},
-            .picture = {kSide, kSide, std::vector<std::uint8_t>(kSide * kSide * 4, encoded)}};
-  }
-
-  int frames_drawn = 0;
-  int counted_frames = 0;
-  int references_drawn = 0;
-  std::vector<std::int32_t> indices;  ///< of all drawn frames
-  int fail_after = 0;
-  double slower_by = 0.0;  ///< ms by which each frame is slower than the one before
-  std::vector<ReferenceInfo> references_;
-  std::vector<MeasureInfo> measures_;
-  std::function<Result<FramePictures>(const FramePictures&, std::uint32_t)> reference;
-
- private:
-  KnobRegistry knobs_;
-  std::int32_t index_ = 0;
-};
-
-class Progress final : public CostProgress {
- public:
-  void measuring(const std::string& knob, const std::string& value, std::size_t done, std::size_t total) override {
-    lines.push_back(knob + "=" + value + " " + std::to_string(done) + "/" + std::to_string(total));
-  }
-  void finished(const LedgerRow&, bool resumed) override { ++(resumed ? found : measured); }
-
-  Status picture(const std::string& name, const Picture& picture) override {
-    const auto [known, added] = pictures.emplace(name, picture.rgba);
-    EXPECT_TRUE(added || known->second == picture.rgba) << "one name for two pictures: " << name;
-    return {};
-  }
-  bool has_picture(const std::string& name) override { return name != lost; }
-
-  std::vector<std::string> lines;
-  std::map<std::string, std::vector<std::uint8_t>> pictures;
-  std::string lost;  ///< name of a picture that an earlier run left and that is gone
-  int measured = 0;
-  int found = 0;
-};
-
-class MeasureCosts : public ::testing::Test {
- protected:
-  MeasureCosts() {
-    request_.header = {.scene = "s", .scene_hash = "h", .width = kSide, .height = kSide, .frames = 5, .samples = 64};
-    request_.knobs = {"fake.samples"};
-    request_.folder = folder_.path();
-  }
-  Ledger measure() {
-    progress_ = {};
-    auto ledger = measure_costs(request_, subject_, progress_);
-    EXPECT_TRUE(ledger.ok()) << ledger.error().message;
-    return ledger.ok() ? *ledger : Ledger{};
-  }
-  void judge_by(ReferenceInfo reference) { subject_.references_ = {std::move(reference)}; }
-
-  TestFolder folder_;
-  CostRequest request_;
-  FakeSubject subject_;
-  Progress progress_;
-};
 
 TEST_F(MeasureCosts, gives_every_picture_of_every_row) {
   const Ledger ledger = measure();
@@ -458,11 +350,14 @@ TEST_F(MeasureCosts, values_of_a_ledger_hold_the_default_and_the_exact_one_once)
 
 TEST_F(MeasureCosts, knobs_are_chosen_by_name) {
   const KnobRegistry& knobs = subject_.knobs();
-  EXPECT_THAT(*choose_knobs(knobs, ""), ElementsAre("fake.samples", "fake.look", "fake.count"));
+  EXPECT_THAT(*choose_knobs(knobs, ""),
+              ElementsAre("fake.samples", "fake.look", "fake.count", "fake.taste", "fake.method"));
   EXPECT_THAT(*choose_knobs(knobs, "fake.look,fake.samples,fake.look"), ElementsAre("fake.look", "fake.samples"));
-  EXPECT_THAT(*choose_knobs(knobs, "fake.*"), ElementsAre("fake.samples", "fake.look", "fake.count"));
+  EXPECT_THAT(*choose_knobs(knobs, "fake.*"),
+              ElementsAre("fake.samples", "fake.look", "fake.count", "fake.taste", "fake.method"));
   EXPECT_THAT(*choose_knobs(knobs, "*.look,f*s"), ElementsAre("fake.look", "fake.samples"));
-  EXPECT_THAT(*choose_knobs(knobs, "*"), ElementsAre("fake.samples", "fake.look", "fake.count"));
+  EXPECT_THAT(*choose_knobs(knobs, "*"),
+              ElementsAre("fake.samples", "fake.look", "fake.count", "fake.taste", "fake.method"));
   EXPECT_THAT(*choose_knobs(knobs, "fake.**t"), ElementsAre("fake.count"));
   EXPECT_FALSE(choose_knobs(knobs, "fake.samples*s").ok()) << "no character stands for two";
   for (const char* list : {"nope", "fog.*", "*.loo", "ake*", "fake.look,", ",fake.look", "fake.look,,fake.samples",

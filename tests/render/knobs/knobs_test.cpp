@@ -129,6 +129,42 @@ TEST_F(Knobs, an_assignment_splits_at_the_first_equals_sign) {
   EXPECT_THAT(message(knobs_.set_assignment("=brute")), HasSubstr("unknown knob ; there are"));
 }
 
+TEST_F(Knobs, a_setting_that_is_not_met_is_named_with_the_current_value) {
+  Knob filter = choice_knob("lights.filter", {"hard", "soft", "wide"});
+  filter.only_with = "lights.culling=tiled";
+  Knob width = number_knob("lights.width", Knob::Type::number, 0, 1, 0.5);
+  width.only_with = "lights.filter=soft|wide";
+  Knob lost = choice_knob("lights.lost", {"a"});
+  lost.only_with = "fog.mode=on";  // of a module that is left out
+  for (const Knob& knob : {filter, width, lost}) knobs_.add(knob);
+  const auto unmet = [&](std::string_view name) { return knobs_.unmet_setting(*knobs_.find(name)); };
+  EXPECT_EQ(unmet("lights.culling"), "");
+  EXPECT_EQ(unmet("lights.lost"), "");
+  EXPECT_EQ(unmet("lights.filter"), "");
+  EXPECT_EQ(unmet("lights.width"), "only with lights.filter=soft or wide, which is hard");
+  ASSERT_TRUE(knobs_.set("lights.filter", "wide").ok());
+  EXPECT_EQ(unmet("lights.width"), "");
+  ASSERT_TRUE(knobs_.set("lights.culling", "brute").ok());
+  EXPECT_EQ(unmet("lights.filter"), "only with lights.culling=tiled, which is brute");
+  EXPECT_EQ(unmet("lights.width"), "only with lights.culling=tiled, which is brute") << "by way of lights.filter";
+}
+
+TEST_F(Knobs, settings_that_need_each_other_end) {
+  Knob one = choice_knob("a.one", {"off", "on"}, 1), two = choice_knob("a.two", {"off", "on"}, 1);
+  one.only_with = "a.two=on";
+  two.only_with = "a.one=on";
+  knobs_.add(one);
+  knobs_.add(two);
+  EXPECT_EQ(knobs_.unmet_setting(*knobs_.find("a.one")), "");
+}
+
+TEST_F(Knobs, a_taste_has_no_exact_value) {
+  Knob knob = choice_knob("lights.look", {"warm", "cold"});
+  knob.taste = "a look";
+  knob.exact = "warm";
+  EXPECT_ASSERT(knobs_.add(knob), "knob lights.look: a taste has no exact value");
+}
+
 TEST_F(Knobs, json_sets_strings_and_numbers) {
   ASSERT_TRUE(
       knobs_.set_from_json(R"({"lights.culling": "brute", "shadows.maps": 4, "grass.reach": 7.5})", "k.json").ok());
