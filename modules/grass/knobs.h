@@ -49,7 +49,8 @@ inline constexpr NumberKnob kGrassDensityScale{.name = "grass.density_scale",
                                                .meaning = "factor of the density of all grass",
                                                .max = 1000,
                                                .default_value = 1,
-                                               .ledger_values = {0.25, 0.5, 1, 2}};
+                                               .ledger_values = {0.25, 0.5, 1, 2},
+                                               .is_look = true};
 inline constexpr NumberKnob kGrassLodPixels{
     .name = "grass.lod_pixels",
     .meaning =

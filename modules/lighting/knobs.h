@@ -27,7 +27,8 @@ enum class ToneCurve : std::uint32_t { filmic, reinhard, linear, agx };
 
 // The knobs that the program does not read; kAntialiasing is in outputs.h.
 inline constexpr EnumKnob<ToneCurve> kToneMap{.name = "lighting.tone_map",
-                                              .meaning = "tone curve that maps exposed linear light to the picture"};
+                                              .meaning = "tone curve that maps exposed linear light to the picture",
+                                              .is_look = true};
 /// Entries of the table; 0: no table.
 inline constexpr ChoiceKnob<std::uint32_t> kToneMapTable{
     .name = "lighting.tone_map_table",

@@ -17,6 +17,7 @@
 #include "sandbox/session/baking/captures.h"
 #include "sandbox/session/drawing/session_costs.h"
 #include "sandbox/session/loading/scene_loading.h"
+#include "sandbox/session/program_knobs.h"
 #include "sandbox/session/session.h"
 
 namespace gloam {
@@ -48,6 +49,16 @@ class ConsoleProgress final : public CostProgress {
     static_cast<void>(console_.flush());
   }
 
+  void finished_point(const LedgerPoint& point, bool resumed) override {
+    if (quiet_ || console_.shows_progress()) return;
+    const LedgerRow& row = point.measured;
+    console_.print(settings_text(point.settings) +
+                   formatted(": %.2f (%.2f-%.2f) of the default's time, error %.4f, %u pairs of frames", row.ratio,
+                             row.ratio_low, row.ratio_high, row.flip->mean, row.pairs) +
+                   (resumed ? " (measured before)" : "") + "\n");
+    static_cast<void>(console_.flush());
+  }
+
   [[nodiscard]] std::size_t resumed() const { return resumed_; }
 
  private:
@@ -60,9 +71,11 @@ class ConsoleProgress final : public CostProgress {
   Clock::time_point begin_;
 };
 
-KnobRegistry knobs_of(const ModuleList& modules) {
+/// All that a ledger can vary: the modules' knobs and the resolution scale.
+KnobRegistry measurable_knobs() {
   KnobRegistry registry;
-  for (const auto& module : modules) module->knobs(registry);
+  for (const auto& module : make_all_modules()) module->knobs(registry);
+  add_knobs(registry, "views", kViewScale);
   return registry;
 }
 
@@ -111,6 +124,7 @@ std::string idle_reason(const Module& module, const std::string& knob, const Ses
 CostRequest make_request(Session& session, const Options& options, const std::vector<std::string>& chosen) {
   CostRequest request = {.header = header_of(session, options),
                          .conditions = conditions_of(options),
+                         .points = options.points.value_or(options.quick ? kQuickPoints : kLedgerPoints),
                          .sequence = options.frames,
                          .folder = options.out};
   for (const std::string& name : chosen) {
@@ -143,6 +157,7 @@ std::string command_line(const Options& options) {
   };
   const Options standard;
   if (options.quick) line += " --quick";
+  add("--points", std::to_string(options.points.value_or(0)), options.points.has_value());
   add("--size", formatted("%ux%u", options.width, options.height), options.size_given);
   add("--knobs", options.knobs, !options.knobs.empty());
   add("--camera", options.camera, !options.camera.empty());
@@ -170,7 +185,8 @@ Status write_report(const Ledger& ledger, const Options& options, const KnobRegi
 Status write_ledger(const Ledger& ledger, const std::string& folder) {
   GLOAM_TRY(make_folder_of(folder + "/ledger.json"));
   GLOAM_TRY(write_file(folder + "/ledger.json", ledger_json(ledger)));
-  return write_file(folder + "/ledger.csv", ledger_csv(ledger));
+  GLOAM_TRY(write_file(folder + "/ledger.csv", ledger_csv(ledger)));
+  return ledger.points.empty() ? Status() : write_file(folder + "/points.csv", points_csv(ledger));
 }
 
 }  // namespace
@@ -182,7 +198,7 @@ Status run_cost(const CommandContext& context) {
     options.height = kQuickHeight;
   }
   GLOAM_TRY(check_scene_exists(options.scene));
-  const auto chosen = choose_knobs(knobs_of(make_all_modules()), options.knobs);
+  const auto chosen = choose_knobs(measurable_knobs(), options.knobs);
   if (!chosen) return chosen.error();
   // Fail before minutes of measuring whose results could not be written.
   GLOAM_TRY(make_folder_of(options.out + "/ledger.json"));
@@ -199,7 +215,7 @@ Status run_cost(const CommandContext& context) {
   GLOAM_TRY(session.value()->check_validation());
   GLOAM_TRY(write_ledger(*ledger, options.out));
   GLOAM_TRY(write_report(*ledger, options, session.value()->renderer->knobs(), pictures));
-  context.console.print(ledger_table(*ledger));
+  context.console.print(ledger_table(*ledger) + points_table(*ledger));
   if (options.quiet) return {};
   if (progress.resumed() > 0)
     context.console.print(std::to_string(progress.resumed()) + " of " + std::to_string(ledger->rows.size()) +

@@ -115,6 +115,7 @@ struct EnumKnob {
   E default_value{};
   std::optional<E> exact{};  ///< Knob::exact
   std::string_view unit{};
+  bool is_look = false;  ///< Knob::is_look
 
   [[nodiscard]] constexpr E value_of(double number) const {
     constexpr double kCount = static_cast<double>(choices_of_enum<E>().size());
@@ -144,6 +145,7 @@ struct ChoiceKnob {
   T default_value{};  ///< one of the choices' values
   std::optional<T> exact{};
   std::string_view unit{};
+  bool is_look = false;
 
   [[nodiscard]] constexpr const T& value_of(double number) const {
     const bool known = number >= 0.0 && number < static_cast<double>(choices.size());
@@ -169,6 +171,7 @@ struct RangeKnob {
   std::optional<T> exact{};
   std::string_view unit{};
   KnobItems<double> ledger_values{};  ///< Knob::ledger_values
+  bool is_look = false;
 
   [[nodiscard]] constexpr T value_of(double number) const { return static_cast<T>(number); }
   [[nodiscard]] constexpr double number_of(T value) const { return static_cast<double>(value); }
@@ -208,6 +211,7 @@ template <class K>
   knob.type = K::kType;
   knob.default_number = reference.number_of(reference.default_value);
   knob.unit = reference.unit;
+  knob.is_look = reference.is_look;
   if (reference.exact) knob.exact = text_of(reference, *reference.exact);
   return knob;
 }

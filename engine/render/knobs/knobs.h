@@ -30,6 +30,9 @@ struct Knob {
   /// Text of the exact value: the frame drawn with it is the reference for the other values. Empty: all values are
   /// equally right, or the module judges the knob by its own reference (Module::references).
   std::string exact;
+  /// A matter of taste, not of accuracy: no value is more right than another. The whole-frame reference keeps the
+  /// user's value, and combinations of values do not vary it.
+  bool is_look = false;
 };
 
 /// A knob's value as text (KnobRegistry::set), for one view or while a measure counts. override_of() makes one.

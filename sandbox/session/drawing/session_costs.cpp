@@ -5,7 +5,9 @@
 #include <utility>
 
 #include "engine/core/processor_time.h"
+#include "sandbox/session/drawing/enlarged.h"
 #include "sandbox/session/drawing/frame_tracing.h"
+#include "sandbox/session/program_knobs.h"
 
 namespace gloam {
 namespace {
@@ -50,6 +52,9 @@ std::vector<MeasureInfo> SessionCosts::measures() const {
 
 Result<FrameCost> SessionCosts::draw(std::int32_t index) {
   session_.set_clock(options_.time_s + index * options_.dt_s, options_.dt_s);
+  const double scale = view_scale(knobs());
+  request_.settings.width = scaled_size(options_.width, scale);
+  request_.settings.height = scaled_size(options_.height, scale);
   const double begin_ms = processor_time_ms();
   const auto sample = session_.render_frame(request_);
   if (!sample) return sample.error();
@@ -70,6 +75,19 @@ Result<std::uint64_t> SessionCosts::gpu_bytes() {
 }
 
 Result<FramePictures> SessionCosts::read() {
+  auto drawn = read_drawn();
+  if (!drawn) return drawn.error();
+  return full_size(*drawn);
+}
+
+FramePictures SessionCosts::full_size(const FramePictures& pictures) const {
+  const auto resize = [&](const auto& picture) {
+    return picture.width == 0 ? picture : enlarged(picture, options_.width, options_.height);
+  };
+  return {.linear = resize(pictures.linear), .picture = resize(pictures.picture)};
+}
+
+Result<FramePictures> SessionCosts::read_drawn() {
   auto linear = session_.renderer->read_linear(request_.settings.id);
   if (!linear) return linear.error();
   auto picture = session_.renderer->read_picture(request_.settings.id);
@@ -84,7 +102,7 @@ Result<FramePictures> SessionCosts::redraw(const std::function<void(World&)>& ch
   Status drawn;
   for (int frame = 0; frame < 2 && drawn.ok(); ++frame)
     if (const auto cost = draw(index_); !cost) drawn = cost.error();
-  Result<FramePictures> pictures = drawn.ok() ? read() : Result<FramePictures>(drawn.error());
+  Result<FramePictures> pictures = drawn.ok() ? read_drawn() : Result<FramePictures>(drawn.error());
   restore(session_.world);
   return pictures;
 }
@@ -98,16 +116,22 @@ Result<FramePictures> SessionCosts::draw_reference(const ReferenceInfo& referenc
     if (!read) return read.error();
     traced = std::move(read).value();
   }
-  return reference.draw({.world = session_.world,
-                         .view = session_.world.view_resource<RenderView>(request_.settings.id),
-                         .knobs = knobs(),
-                         .frame = frame,
-                         .samples = samples,
-                         .executor = *session_.executor,
-                         .tracer = traced.tracer.get(),
-                         .geometry = needs_rays ? &traced.geometry : nullptr,
-                         .redraw = [this](const auto& change, const auto& restore) { return redraw(change, restore); },
-                         .store = store_.get()});
+  const bool scaled = view_scale(knobs()) < 1.0;
+  auto drawn = scaled ? read_drawn() : Result<FramePictures>(FramePictures());
+  if (!drawn) return drawn.error();
+  auto pictures =
+      reference.draw({.world = session_.world,
+                      .view = session_.world.view_resource<RenderView>(request_.settings.id),
+                      .knobs = knobs(),
+                      .frame = scaled ? *drawn : frame,
+                      .samples = samples,
+                      .executor = *session_.executor,
+                      .tracer = traced.tracer.get(),
+                      .geometry = needs_rays ? &traced.geometry : nullptr,
+                      .redraw = [this](const auto& change, const auto& restore) { return redraw(change, restore); },
+                      .store = store_.get()});
+  if (!pictures || !scaled) return pictures;
+  return full_size(*pictures);
 }
 
 }  // namespace gloam
