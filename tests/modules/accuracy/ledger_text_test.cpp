@@ -50,6 +50,11 @@ TEST(ledger_json, has_what_scripts_look_for) {
   EXPECT_EQ(json["rows"][0]["reference"]["kind"], "traced");
   EXPECT_TRUE(json["rows"][4]["error"]["psnr_db"].is_null()) << "the same picture has no finite ratio";
   EXPECT_TRUE(json["rows"][5]["error"].empty()) << "no reference, no errors";
+  EXPECT_TRUE(json["rows"][0]["whole"]["flip"]["p99"].is_number());
+  EXPECT_EQ(json["points"][0]["settings"]["shadows.filter"], "hard");
+  EXPECT_TRUE(json["points"][0]["whole"]["rmse"].is_number());
+  EXPECT_TRUE(json["points"][0]["predicted"]["ms"].is_number());
+  EXPECT_EQ(json["model"]["time"]["worst"], 0.5);
 }
 
 TEST(ledger_json, says_what_is_wrong_with_a_text) {
