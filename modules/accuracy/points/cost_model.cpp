@@ -14,6 +14,10 @@ namespace {
 /// Predicted times of many changes may add up to less than nothing.
 constexpr double kLeastRatio = 0.01;
 
+/// Mean FLIP. Smaller differences count as none: otherwise a value that nobody can tell from the default would be part
+/// of every combination.
+constexpr double kLeastDifference = 1e-4;
+
 double squared_error_of(const LedgerRow& row) { return row.whole->flip.mean * row.whole->flip.mean; }
 
 /// The row that the others of the knob are compared with: that of the user's value, or else of the default.
@@ -26,9 +30,10 @@ const LedgerRow* users_row(const std::vector<const LedgerRow*>& rows, const std:
 
 CostModel::Option option_of(const LedgerRow& row, const LedgerRow& base) {
   const bool significant = row.ratio_high < base.ratio || row.ratio_low > base.ratio;
+  const bool visible = std::abs(row.whole->flip.mean - base.whole->flip.mean) >= kLeastDifference;
   return {row.value,
           {.ratio = significant ? (row.ratio - base.ratio) / base.ratio : 0.0,
-           .squared_error = squared_error_of(row) - squared_error_of(base)}};
+           .squared_error = visible ? squared_error_of(row) - squared_error_of(base) : 0.0}};
 }
 
 }  // namespace

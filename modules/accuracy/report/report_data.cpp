@@ -81,7 +81,8 @@ std::vector<std::string> names_by_importance(const ReportData& data) {
     for (const Saving& saving : *list) names.push_back(saving.row->picture);
   for (const LedgerRow& row : data.ledger.rows) names.push_back(row.picture);
   for (const LedgerPoint& point : data.ledger.points)
-    for (const std::string& name : {point.measured.picture, point.measured.worst_areas(), point.measured.heat_map()})
+    for (const std::string& name : {point.measured.reference_picture, point.measured.picture,
+                                    point.measured.worst_areas(), point.measured.heat_map()})
       names.push_back(name);
   for (const LedgerRow& row : data.ledger.rows) names.push_back(row.reference_picture);
   for (const LedgerRow& row : data.ledger.rows) names.push_back(row.worst_areas());
