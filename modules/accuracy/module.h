@@ -140,7 +140,8 @@ inline constexpr std::uint32_t kQuickHeight = 180;
 
 struct KnobMeaning {
   std::string knob;
-  std::string meaning;  ///< one sentence
+  std::string meaning;        ///< one sentence
+  std::string default_value;  ///< its text; may be empty
 };
 
 /// Contents of a report beside its ledger.

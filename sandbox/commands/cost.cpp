@@ -177,7 +177,8 @@ std::string command_line(const Options& options) {
 Status write_report(const Ledger& ledger, const Options& options, const KnobRegistry& knobs,
                     const PictureFolder& pictures) {
   ReportRequest request = {.command = command_line(options)};
-  for (const Knob& knob : knobs.knobs()) request.meanings.push_back({knob.name, knob.meaning});
+  for (const Knob& knob : knobs.knobs())
+    request.meanings.push_back({knob.name, knob.meaning, value_text(knob, knob.default_number)});
   request.picture = [&](const std::string& name) { return pictures.small_file(name); };
   return write_file(options.out + "/report.html", ledger_report(ledger, request));
 }

@@ -27,7 +27,8 @@ struct Cost {
 /// to the time; the square of its whole-frame error less the square of the default's is what it adds to the squared
 /// error (errors of independent effects add as variances do). Both may be negative. The model adds them over the
 /// changed knobs. A difference in time that is not significant counts as none, because the best of many would be the
-/// luckiest.
+/// luckiest;
+/// so does a difference in error that nobody can see.
 class CostModel {
  public:
   struct Option {

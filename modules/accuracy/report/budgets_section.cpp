@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -69,9 +70,14 @@ std::vector<Answer> budget_answers(const Ledger& ledger) {
 
 std::vector<Answer> error_answers(const Ledger& ledger) {
   std::vector<Answer> answers;
-  for (const double bound : kErrorBounds)
-    if (const LedgerPoint* point = cheapest_below(ledger, bound))
+  for (const double bound : kErrorBounds) {
+    const LedgerPoint* point = cheapest_below(ledger, bound);
+    if (point == nullptr) continue;
+    if (!answers.empty() && answers.back().point == point)
+      answers.back().question += formatted(", %g", bound);
+    else
       answers.push_back({formatted("Error below %g", bound), point});
+  }
   return answers;
 }
 
@@ -90,9 +96,9 @@ std::string settings_list(const ReportData& data, const LedgerPoint& point) {
   if (point.settings.empty()) return "<p>Nothing: all knobs are at their defaults.</p>\n";
   std::string html = "<ul>\n";
   for (const KnobValue& setting : point.settings) {
-    std::string from;
-    for (const KnobResults& knob : data.knobs)
-      if (knob.name == setting.knob && knob.standard != nullptr) from = knob.standard->value + " → ";
+    const auto known = std::ranges::find(data.meanings, setting.knob, &KnobMeaning::knob);
+    const bool has_default = known != data.meanings.end() && !known->default_value.empty();
+    const std::string from = has_default ? known->default_value + " → " : std::string();
     html += "<li><code>" + escaped(setting.knob) + "</code> " + escaped(from) + "<strong>" + escaped(setting.value) +
             "</strong></li>\n";
   }

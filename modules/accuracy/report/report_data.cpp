@@ -115,7 +115,7 @@ bool ReportData::has_picture(std::string_view name) const {
 }
 
 ReportData report_data(const Ledger& ledger, const ReportRequest& request) {
-  ReportData data = {.ledger = ledger, .command = request.command};
+  ReportData data = {.ledger = ledger, .command = request.command, .meanings = request.meanings};
   data.knobs = group_by_knob(ledger, request);
   data.savings = find_savings(data.knobs);
   embed_pictures(request, data);

@@ -50,6 +50,9 @@ TEST(CostModel, adds_differences_of_time_and_of_squared_errors) {
   EXPECT_DOUBLE_EQ(better.ratio, 2.5);
   EXPECT_EQ(better.error(), 0.0) << "below 0 is 0";
   EXPECT_DOUBLE_EQ(model.predict({{"k.c", "low"}}).ratio, 1.0) << "its saving is within the noise";
+  std::vector<LedgerRow> rows = rows_abc();
+  rows[0].whole->flip.mean = 0.03 - 9e-5;
+  EXPECT_DOUBLE_EQ(CostModel(rows, knobs_abc()).predict({{"k.a", "low"}}).error(), 0.03) << "nobody sees that";
 }
 
 TEST(CostModel, does_not_vary_wrong_values_looks_and_knobs_without_effect) {
