@@ -52,7 +52,9 @@ std::vector<MeasureInfo> SessionCosts::measures() const {
 
 Result<FrameCost> SessionCosts::draw(std::int32_t index) {
   session_.set_clock(options_.time_s + index * options_.dt_s, options_.dt_s);
-  choose_view();
+  const double scale = view_scale(knobs());
+  request_.settings.width = scaled_size(options_.width, scale);
+  request_.settings.height = scaled_size(options_.height, scale);
   const double begin_ms = processor_time_ms();
   const auto sample = session_.render_frame(request_);
   if (!sample) return sample.error();
@@ -63,17 +65,7 @@ Result<FrameCost> SessionCosts::draw(std::int32_t index) {
   return cost;
 }
 
-void SessionCosts::choose_view() {
-  const Knob* knob = knobs().find(kViewScale.name);
-  const double scale = view_scale(knobs());
-  request_.settings.id = ViewId{knob != nullptr ? static_cast<std::uint32_t>(knobs().number(*knob)) : 0};
-  request_.settings.width = scaled_size(options_.width, scale);
-  request_.settings.height = scaled_size(options_.height, scale);
-}
-
 Result<std::uint64_t> SessionCosts::gpu_bytes() {
-  for (std::uint32_t id = 0; id < kViewScale.choices.size(); ++id)
-    if (id != request_.settings.id.value) session_.renderer->release_view(session_.world, ViewId{id});
   session_.renderer->free_idle_memory();
   // The device frees memory only after the frames that may still use it have completed.
   for (int frame = 0; frame < 3; ++frame) GLOAM_TRY(draw(index_));

@@ -30,9 +30,6 @@ class SessionCosts final : public CostSubject {
                                                      std::uint32_t samples) override;
 
  private:
-  /// Sets view and size by views.scale. Each scale is a view of its own: a change of size would draw all shadow maps
-  /// again, and pairs of frames change it each time.
-  void choose_view();
   /// The pictures of the last frame as they were drawn: with views.scale, smaller than the full size.
   [[nodiscard]] Result<FramePictures> read_drawn();
   [[nodiscard]] FramePictures full_size(const FramePictures& pictures) const;
