@@ -143,6 +143,11 @@ std::vector<CommandApp> add_commands(CLI::App& root, Options& options, RawTexts&
       ->type_name("I/N");
   cost->add_option("--merge", options.merge, "Write one table and one page of the ledgers in these folders of --list")
       ->type_name("DIR");
+  cost->add_option(
+          "--points", options.points,
+          "Combinations of values to measure, with the default and the exact setting; 0: none; default: 24, or "
+          "10 with --quick")
+      ->type_name("N");
   CLI::App* bench = add(Command::bench, "bench", "Run benchmarks: the papers' tables and the CPU systems");
   bench->add_option("NAME", options.names, "Benchmarks to run: the id NAME, or all ids that begin with NAME and a dot");
   bench->add_option("--scene", options.scene, scene_text)->type_name("SCENE");

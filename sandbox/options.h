@@ -77,6 +77,8 @@ struct Options {
   std::string json_file;           ///< bench
   bool list = false;               ///< bench
   bool strict = false;             ///< bench
+
+  std::optional<std::uint32_t> points;  ///< cost: combinations to measure; none: as many as --quick implies
 };
 
 inline constexpr std::uint32_t kMaxSize = 16384;

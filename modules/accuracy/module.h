@@ -98,7 +98,13 @@ class CostProgress {
   virtual void measuring(const std::string& knob, const std::string& value, std::size_t done, std::size_t total) = 0;
   /// `resumed`: the row was found in the folder and nothing was drawn.
   virtual void finished(const LedgerRow& row, bool resumed) = 0;
-  /// A picture of a row that was just measured. `name`: one of row_pictures(), which is the same for equal pictures.
+  /// The same for combinations. `setting`: settings_text().
+  virtual void measuring_point(const std::string& setting, std::size_t done, std::size_t total) {
+    measuring("point", setting, done, total);
+  }
+  virtual void finished_point(const LedgerPoint& /*point*/, bool /*resumed*/) {}
+  /// A picture of a row or point that was just measured. `name`: one of row_pictures(), which is the same for equal
+  /// pictures.
   [[nodiscard]] virtual Status picture(const std::string& /*name*/, const Picture& /*picture*/) { return {}; }
   /// Whether picture() was called with this name, now or in the run that a stored row comes from. A stored row that
   /// lacks a picture is measured again.
@@ -111,6 +117,7 @@ struct CostRequest {
   std::string conditions;          ///< other inputs that change a frame (seed, animation, visualizer), one line
   std::vector<std::string> knobs;  ///< names of existing knobs, in the order of the ledger
   std::vector<SkippedKnob> skipped;
+  std::uint32_t points = 0;    ///< most combinations to measure, with the default and the exact setting; 0: none
   std::uint32_t sequence = 1;  ///< frames over which the temporal error is computed; 1: none
   std::string folder;          ///< finished rows and references are stored below it
 };
@@ -120,6 +127,8 @@ inline constexpr std::uint32_t kLedgerFrames = 200;  ///< most timed frames per 
 inline constexpr double kLedgerInterval = 0.02;
 inline constexpr double kQuickInterval = 0.06;
 inline constexpr std::uint32_t kLedgerSamples = 256;  ///< samples of references that sample
+inline constexpr std::uint32_t kLedgerPoints = 24;
+inline constexpr std::uint32_t kQuickPoints = 10;
 inline constexpr std::uint32_t kQuickFrames = 40;
 inline constexpr std::uint32_t kQuickSamples = 64;
 inline constexpr std::uint32_t kQuickWidth = 320;
@@ -139,12 +148,15 @@ inline constexpr std::uint32_t kQuickHeight = 180;
 /// Measures every value of every knob of the request: its error against the knob's reference, or by the knob's measure
 /// if it has one; and its time, alternating with the default until the ratio is known well enough or `frames` are
 /// timed. All rows of the default have the same time: that of all its frames. Rows that an earlier run finished are not
-/// measured again. The knobs have their previous values afterwards. An error names the knob and the value.
+/// measured again. Then it measures combinations of the values that the rows promise to be best, up to request.points.
+/// Each row and point also has its error against the whole frame, which is drawn once. The knobs have their previous
+/// values afterwards. An error names the knob and the value.
 [[nodiscard]] Result<Ledger> measure_costs(const CostRequest& request, CostSubject& subject, CostProgress& progress);
 
 struct KnobMeaning {
   std::string knob;
-  std::string meaning;  ///< one sentence
+  std::string meaning;        ///< one sentence
+  std::string default_value;  ///< its text; may be empty
 };
 
 /// Contents of a report beside its ledger.

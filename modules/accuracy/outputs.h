@@ -10,7 +10,7 @@
 
 #include "engine/core/result.h"
 
-// The cost ledger: error and time of each value of each knob, on one scene and device.
+// The cost ledger: error and time of each value of each knob, and of combinations, on one scene and device.
 
 namespace gloam {
 
@@ -34,6 +34,15 @@ struct CountedError {
   std::string unit;           ///< "false positives a tile"
   std::optional<double> p99;  ///< if `value` is the mean of many: their 99th percentile
   bool operator==(const CountedError&) const = default;
+};
+
+/// The difference from the whole-frame reference: the frame with every knob at its most exact value. Errors of
+/// different effects can be compared on this scale.
+struct WholeError {
+  ErrorPair flip;        ///< 0…1
+  double rmse = 0.0;     ///< linear light, cd/m², over all pixels and channels
+  double psnr_db = 0.0;  ///< infinity: identical pictures
+  bool operator==(const WholeError&) const = default;
 };
 
 /// A rectangle of a picture's pixels.
@@ -67,6 +76,8 @@ struct LedgerRow {
   /// Only in runs over several frames: linear light, cd/m², or displayed light, 0…1, if the reference is a picture
   /// only.
   std::optional<ErrorPair> temporal;
+  /// None for a knob that is a look (Knob::is_look), and in older ledgers.
+  std::optional<WholeError> whole;
 
   /// Of a frame, by the ledger's clock: the default's time, times the ratio.
   TimeSummary ms;
@@ -140,13 +151,56 @@ struct CameraRows {
   bool operator==(const CameraRows&) const = default;
 };
 
+struct KnobValue {
+  std::string knob;
+  std::string value;
+  bool operator==(const KnobValue&) const = default;
+};
+
+inline constexpr const char* kWholeFrameKind = "whole frame";  ///< LedgerRow::reference_kind of points
+inline constexpr const char* kWholeFrameName = "every knob at its most exact value";
+
+/// Result for a whole setting: a combination of values.
+struct LedgerPoint {
+  std::vector<KnobValue> settings;  ///< the knobs whose value is not their declared default, in the program's order
+  bool is_exact = false;            ///< every knob is at its most exact value
+  /// Time, errors and pictures. knob is empty, value is settings_text(), and the reference is the whole frame. It is
+  /// the default if it has the user's own settings; ratios are to them.
+  LedgerRow measured;
+  double predicted_ms = 0.0;    ///< by the model, from the rows
+  double predicted_flip = 0.0;  ///< mean FLIP against the whole frame
+  bool operator==(const LedgerPoint&) const = default;
+};
+
+/// Measured divided by predicted.
+struct ModelRatio {
+  double median = 1.0;
+  double worst = 1.0;  ///< the ratio farthest from 1, on a logarithmic scale
+  bool operator==(const ModelRatio&) const = default;
+};
+
+/// How well the model predicted the points, without the default and the exact setting.
+struct ModelQuality {
+  std::uint32_t points = 0;  ///< that were compared
+  ModelRatio time;
+  ModelRatio error;  ///< of the mean FLIP against the whole frame
+  bool operator==(const ModelQuality&) const = default;
+};
+
 struct Ledger {
   LedgerHeader header;
   std::vector<LedgerRow> rows;  ///< grouped by knob, in the order of the knob's values
   std::vector<SkippedKnob> skipped;
   /// Only of several cameras: then `rows` are their worst, and header.camera has their names, separated by commas.
   std::vector<CameraRows> cameras = {};
+  std::vector<LedgerPoint> points = {};    ///< the fastest first
+  std::optional<ModelQuality> model = {};  ///< none without points
 };
+
+/// "shadows.filter=hard views.scale=0.5"; "default" without settings.
+[[nodiscard]] std::string settings_text(const std::vector<KnobValue>& settings);
+/// The settings as a file for --config: a JSON object, one knob a line.
+[[nodiscard]] std::string settings_config(const std::vector<KnobValue>& settings);
 
 /// Sets no_effect and on_front of every row, for each knob separately. A row is on the front unless another value
 ///   is as right and significantly cheaper (the intervals of their ratios are apart), or
@@ -166,6 +220,10 @@ void mark_pareto_front(std::vector<LedgerRow>& rows);
 /// A readable table: a header, then one aligned line per row. `*` marks the front, `!` a wrong row.
 [[nodiscard]] std::string ledger_table(const Ledger& ledger);
 
+/// A line for each point on the front, the default and the exact setting, and how well the model predicted. Empty
+/// without points.
+[[nodiscard]] std::string points_table(const Ledger& ledger);
+
 /// JSON, schema version 1. Numbers are read back exactly.
 [[nodiscard]] std::string ledger_json(const Ledger& ledger);
 /// Malformed text gives an error of ErrorKind::input that names the fault.
@@ -174,5 +232,7 @@ void mark_pareto_front(std::vector<LedgerRow>& rows);
 /// One line of column names, then one line per row (RFC 4180). Absent numbers are empty. The last column is the camera:
 /// of several, their worst rows come first, with all names, then the rows of each.
 [[nodiscard]] std::string ledger_csv(const Ledger& ledger);
+/// The same for the points.
+[[nodiscard]] std::string points_csv(const Ledger& ledger);
 
 }  // namespace gloam

@@ -31,7 +31,9 @@ enum class Antialiasing : std::uint8_t { off, smaa };
 }
 
 inline constexpr EnumKnob<Antialiasing> kAntialiasing{
-    .name = "lighting.antialiasing", .meaning = "smoothing of slanted edges in the picture; play and render set smaa"};
+    .name = "lighting.antialiasing",
+    .meaning = "smoothing of slanted edges in the picture; play and render set smaa",
+    .is_look = true};
 
 /// Another module adds the specular reflection of the surroundings (sky and ground) to opaque surfaces itself. It puts
 /// this on the board in PassPhase::announce. LitOutput then lacks exactly occlusion · specular_ambient()

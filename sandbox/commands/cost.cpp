@@ -23,6 +23,7 @@
 #include "sandbox/session/drawing/session_costs.h"
 #include "sandbox/session/loading/scene_files.h"
 #include "sandbox/session/loading/scene_loading.h"
+#include "sandbox/session/program_knobs.h"
 #include "sandbox/session/session.h"
 
 namespace gloam {
@@ -76,6 +77,16 @@ class ConsoleProgress final : public CostProgress {
                      formatted(" at %g s\n", options.time_s));
   }
 
+  void finished_point(const LedgerPoint& point, bool resumed) override {
+    if (quiet_ || console_.shows_progress()) return;
+    const LedgerRow& row = point.measured;
+    console_.print(settings_text(point.settings) +
+                   formatted(": %.2f (%.2f-%.2f) of the default's time, error %.4f, %u pairs of frames", row.ratio,
+                             row.ratio_low, row.ratio_high, row.flip->mean, row.pairs) +
+                   (resumed ? " (measured before)" : "") + "\n");
+    static_cast<void>(console_.flush());
+  }
+
   [[nodiscard]] std::size_t resumed() const { return resumed_; }
   [[nodiscard]] std::size_t rows() const { return resumed_ + measured_; }
 
@@ -92,9 +103,11 @@ class ConsoleProgress final : public CostProgress {
   TimeLeft left_;
 };
 
-KnobRegistry knobs_of(const ModuleList& modules) {
+/// All that a ledger can vary: the modules' knobs and the resolution scale.
+KnobRegistry measurable_knobs() {
   KnobRegistry registry;
-  for (const auto& module : modules) module->knobs(registry);
+  for (const auto& module : make_all_modules()) module->knobs(registry);
+  add_knobs(registry, "views", kViewScale);
   return registry;
 }
 
@@ -144,6 +157,7 @@ std::string idle_reason(const Module& module, const std::string& knob, const Ses
 CostRequest make_request(Session& session, const Options& options, const std::vector<std::string>& chosen) {
   CostRequest request = {.header = header_of(session, options),
                          .conditions = conditions_of(options),
+                         .points = options.points.value_or(options.quick ? kQuickPoints : kLedgerPoints),
                          .sequence = options.frames,
                          .folder = options.out};
   for (const std::string& name : chosen) {
@@ -176,6 +190,7 @@ std::string command_line(const Options& options) {
   };
   const Options standard;
   if (options.quick) line += " --quick";
+  add("--points", std::to_string(options.points.value_or(0)), options.points.has_value());
   add("--size", formatted("%ux%u", options.width, options.height), options.size_given);
   add("--knobs", options.knobs, !options.knobs.empty());
   add("--camera", options.camera, !options.camera.empty());
@@ -204,7 +219,8 @@ Status write_report(const Ledger& ledger, const Options& options, const std::vec
 Status write_ledger(const Ledger& ledger, const std::string& folder) {
   GLOAM_TRY(make_folder_of(folder + "/ledger.json"));
   GLOAM_TRY(write_file(folder + "/ledger.json", ledger_json(ledger)));
-  return write_file(folder + "/ledger.csv", ledger_csv(ledger));
+  GLOAM_TRY(write_file(folder + "/ledger.csv", ledger_csv(ledger)));
+  return ledger.points.empty() ? Status() : write_file(folder + "/points.csv", points_csv(ledger));
 }
 
 struct MeasuredCameras {
@@ -229,7 +245,8 @@ Result<MeasuredCameras> measure_cameras(const Options& options, const std::vecto
       const auto camera = find_camera(session.world, session.info, cameras.front().camera);
       if (!camera) return camera.error();
       session.camera = *camera;
-      for (const Knob& knob : session.renderer->knobs().knobs()) measured.knobs.push_back({knob.name, knob.meaning});
+      for (const Knob& knob : session.renderer->knobs().knobs())
+        measured.knobs.push_back({knob.name, knob.meaning, value_text(knob, knob.default_number)});
     }
     GLOAM_TRY(ensure_baked(session, cameras[i], context.log, &context.console));
     SessionCosts costs(session, cameras[i]);
@@ -252,7 +269,7 @@ Status measure_scene(const CommandContext& context) {
     options.height = kQuickHeight;
   }
   GLOAM_TRY(check_scene_exists(options.scene));
-  const auto chosen = choose_knobs(knobs_of(make_all_modules()), options.knobs);
+  const auto chosen = choose_knobs(measurable_knobs(), options.knobs);
   if (!chosen) return chosen.error();
   // Fail before minutes of measuring whose results could not be written.
   GLOAM_TRY(make_folder_of(options.out + "/ledger.json"));
@@ -268,7 +285,7 @@ Status measure_scene(const CommandContext& context) {
     return Error{ErrorKind::input, options.scene + " changed while it was measured: no ledger is written; run again"};
   GLOAM_TRY(write_ledger(ledger, options.out));
   GLOAM_TRY(write_report(ledger, options, measured->knobs, pictures));
-  context.console.print(ledger_table(ledger));
+  context.console.print(ledger_table(ledger) + points_table(ledger));
   if (options.quiet) return {};
   if (progress.resumed() > 0)
     context.console.print(std::to_string(progress.resumed()) + " of " + std::to_string(progress.rows()) +

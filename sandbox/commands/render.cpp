@@ -8,6 +8,7 @@
 #include "sandbox/commands/commands.h"
 #include "sandbox/output/numbered_path.h"
 #include "sandbox/session/baking/captures.h"
+#include "sandbox/session/drawing/enlarged.h"
 #include "sandbox/session/drawing/frame_run.h"
 #include "sandbox/session/drawing/frame_tracing.h"
 #include "sandbox/session/drawing/list_room.h"
@@ -87,7 +88,9 @@ Result<std::vector<FrameSample>> render_sequence(Session& session, const Command
     if (!sample) return sample.error();
     samples.push_back(std::move(sample).value());
     GLOAM_TRY(settle_view(session, context, shown, samples.back()));
-    GLOAM_TRY(write_picture({.session = session, .view = shown.view, .samples = samples}, path.of(frame)));
+    GLOAM_TRY(write_picture(
+        {.session = session, .view = shown.view, .samples = samples, .width = options.width, .height = options.height},
+        path.of(frame)));
   }
   return samples;
 }
@@ -101,7 +104,9 @@ Status run_render(const CommandContext& context) {
   if (!opened) return opened.error();
   Session& session = *opened.value();
   GLOAM_TRY(ensure_baked(session, options, context.log, &context.console));
-  ShownView shown = {.view = session.view_settings(options.width, options.height, options.view),
+  const double scale = view_scale(session.renderer->knobs());
+  ShownView shown = {.view = session.view_settings(scaled_size(options.width, scale),
+                                                   scaled_size(options.height, scale), options.view),
                      .traced = traced_view(*session.renderer, options.view)};
   shown.fit = fits_heat_range(session.renderer->knobs()) && shows_heat(*session.renderer, options.view);
   const std::string path = options.out.empty() ? "out/" + scene_stem(options.scene) + ".png" : options.out;
@@ -111,7 +116,8 @@ Status run_render(const CommandContext& context) {
   if (!samples) return samples.error();
   if (!numbered) GLOAM_TRY(settle_view(session, context, shown, samples->back()));
 
-  const DrawnRun run = {.session = session, .view = shown.view, .samples = *samples};
+  const DrawnRun run = {
+      .session = session, .view = shown.view, .samples = *samples, .width = options.width, .height = options.height};
   if (!numbered) GLOAM_TRY(write_picture(run, path));
   GLOAM_TRY(write_reports(run, options, context.console));
   GLOAM_TRY(session.check_validation());

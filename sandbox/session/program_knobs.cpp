@@ -11,13 +11,15 @@ namespace gloam {
 
 void add_program_knobs(KnobRegistry& knobs) {
   add_knobs(knobs, "scene", kDefaultLight);
-  add_knobs(knobs, "views", kHeatRange);
+  add_knobs(knobs, "views", kHeatRange, kViewScale);
 }
 
 float heat_range(const KnobRegistry& knobs) {
   const float factor = knobs.try_value(kHeatRange).value_or(1.0f);
   return factor > 0.0f ? factor : 1.0f;
 }
+
+double view_scale(const KnobRegistry& knobs) { return knobs.try_value(kViewScale).value_or(1.0); }
 
 bool fits_heat_range(const KnobRegistry& knobs) { return knobs.try_value(kHeatRange) == kFitHeatRange; }
 

@@ -16,7 +16,8 @@ inline constexpr OnOffKnob kDefaultLight{
     .name = "scene.default_light",
     .meaning = "a soft sky and a low sun for a scene that has neither a light nor a sky; read when a scene is loaded",
     .choices = {{"on", true}, {"off", false}},
-    .default_value = true};
+    .default_value = true,
+    .is_look = true};
 /// Value of kHeatRange: the range follows what is shown (heat_fit.h).
 inline constexpr float kFitHeatRange = 0.0f;
 inline constexpr ChoiceKnob<float> kHeatRange{
@@ -34,12 +35,24 @@ inline constexpr ChoiceKnob<float> kHeatRange{
                 {"4", 4.0f},
                 {"8", 8.0f},
                 {"16", 16.0f}},
-    .default_value = 1.0f};
+    .default_value = 1.0f,
+    .is_look = true};
+/// `play` has --scale in place of it.
+inline constexpr ChoiceKnob<double> kViewScale{
+    .name = "views.scale",
+    .meaning =
+        "share of the picture's width and height that cost and render draw; the result is enlarged to the picture's "
+        "size by a Lanczos filter on the CPU, whose time is not counted; play has --scale",
+    .choices = {{"1", 1.0}, {"0.85", 0.85}, {"0.7", 0.7}, {"0.5", 0.5}, {"0.35", 0.35}},
+    .default_value = 1.0,
+    .exact = 1.0};
 
 void add_program_knobs(KnobRegistry& knobs);
 
 /// Value of kHeatRange, for ViewSettings::heat_range; 1 if it is kFitHeatRange, or if the registry lacks the knob.
 [[nodiscard]] float heat_range(const KnobRegistry& knobs);
+/// Value of kViewScale; 1 if the registry lacks the knob.
+[[nodiscard]] double view_scale(const KnobRegistry& knobs);
 [[nodiscard]] bool fits_heat_range(const KnobRegistry& knobs);
 /// The factors among the choices of kHeatRange, ascending; none if the registry lacks the knob.
 [[nodiscard]] std::vector<float> heat_ranges(const KnobRegistry& knobs);

@@ -1,14 +1,17 @@
 # SPDX-FileCopyrightText: The gloam authors
 # SPDX-License-Identifier: MIT
 """Tests the page report.html of `cost`. Needs a Vulkan device; the tests in a browser need Chromium."""
+import json
 import re
 import shutil
 import subprocess
 from html.parser import HTMLParser
+from urllib.parse import unquote
 
 from program_case import ProgramCase, main
 
-QUICK = ("cost", "builtin:shadows", "--quick", "--size", "192x108", "--knobs", "shadows.filter,lights.culling")
+QUICK = ("cost", "builtin:shadows", "--quick", "--size", "192x108", "--knobs", "shadows.filter,lights.culling",
+         "--points", "4")
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 
 
@@ -76,12 +79,26 @@ class CostReport(ProgramCase):
                 self.assertIn(f'\n"{name}":"data:image/jpeg;base64,', text)
             if row["error"]["flip"]["mean"] > 0.0:
                 self.assertTrue(row["worst"], row)
+        self.check_budgets(text, ledger)
         names = re.findall(r'^"([^"]+)":"data:', text, re.MULTILINE)
         self.assertEqual(len(names), len(set(names)), "every picture is embedded once")
         # The command line at the end measures the same rows.
         command = re.search(r'<code id="command">gloam (.*?)</code>', text).group(1).split(" ")
         self.assertIn("measured before", self.expect(0, *command).stdout)
         self.assertEqual((self.folder / "ledger/report.html").read_text(encoding="utf-8"), text)
+
+    def check_budgets(self, text, ledger):
+        """The first screen: every answer is a point, with its settings to download."""
+        first = re.search(r'<section id="budgets".*?</section>', text, re.DOTALL).group(0)
+        self.assertIn("What to turn down", first)
+        settings = [point["settings"] for point in ledger["points"]]
+        downloads = re.findall(r'href="data:application/json,([^"]*)" download=', first)
+        self.assertTrue(downloads)
+        for download in downloads:
+            self.assertIn(json.loads(unquote(download)), settings)
+        for point in ledger["points"]:
+            if point["front"]:
+                self.assertIn(f'\n"{point["picture"]}":"data:image/jpeg;base64,', text)
 
     def test_lost_pictures_are_made_again(self):
         self.measure()

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Tests `cost`: rows, files, resuming. Needs a Vulkan device."""
 import csv
+import json
 import os
 import signal
 import subprocess
@@ -13,7 +14,7 @@ from program_case import ProgramCase, main
 
 KNOB = "lights.culling"
 # Without shadows, which only take time here.
-QUICK = ("cost", "builtin:plain", "--quick", "--knobs", KNOB, "--set", "shadows.mode=off")
+QUICK = ("cost", "builtin:plain", "--quick", "--knobs", KNOB, "--set", "shadows.mode=off", "--points", "0")
 
 
 class Cost(ProgramCase):
@@ -63,7 +64,7 @@ class Cost(ProgramCase):
     def test_times_do_not_depend_on_what_else_the_machine_does(self):
         """Beside a process that keeps all cores busy: ratios keep, and a knob that changes nothing gets no star."""
         knobs = "lights.culling,fog.radius"  # without fog, its knobs change nothing
-        common = ("cost", "builtin:plain", "--size", "160x90", "--quick", "--set", "shadows.mode=off")
+        common = ("cost", "builtin:plain", "--size", "160x90", "--quick", "--set", "shadows.mode=off", "--points", "0")
 
         def ratios(folder):
             self.expect(0, *common, "--knobs", knobs, "--out", folder)
@@ -85,6 +86,40 @@ class Cost(ProgramCase):
             self.assertLessEqual(low, beside[key][1] * 1.05, (key, quiet[key], beside[key]))
             self.assertGreaterEqual(high, beside[key][0] / 1.05, (key, quiet[key], beside[key]))
 
+    def test_points_are_whole_settings(self):
+        """Combinations are measured, stored, and drawn the same by `render` with their settings."""
+        points = ("cost", "builtin:plain", "--quick", "--size", "96x54", "--knobs", "lights.culling,views.scale", "--set",
+                  "shadows.mode=off", "--points", "5", "--out", "ledger")
+        run = self.expect(0, *points)
+        self.assertIn("the exact setting", run.stdout)
+        self.assertIn("measured / predicted over", run.stdout)
+        ledger = self.read_json("ledger/ledger.json")
+        found = ledger["points"]
+        self.assertTrue(3 <= len(found) <= 5, found)
+        self.assertEqual([point["exact"] for point in found].count(True), 1)
+        self.assertEqual([point["default"] for point in found].count(True), 1)
+        self.assertEqual([point["ms"]["median"] for point in found], sorted(point["ms"]["median"] for point in found))
+        for point in found:
+            if point["exact"]:
+                self.assertEqual(point["whole"]["flip"]["mean"], 0.0)
+                self.assertEqual(point["settings"]["shadows.mode"], "monolithic")
+            else:
+                self.assertEqual(point["settings"]["shadows.mode"], "off", "the user's setting is kept")
+        for row in ledger["rows"]:
+            self.assertIn("flip", row["whole"])
+        scaled = [point for point in found if "views.scale" in point["settings"]]
+        self.assertTrue(scaled, "a smaller picture is cheaper")
+        with open(self.folder / "ledger/points.csv", encoding="utf-8", newline="") as file:
+            self.assertEqual([float(line["median_ms"]) for line in csv.DictReader(file)],
+                             [point["ms"]["median"] for point in found])
+        for point in found:
+            (self.folder / "config.json").write_text(json.dumps({"lighting.antialiasing": "off", **point["settings"]}))
+            self.expect(0, "render", "builtin:plain", "--size", "96x54", "--config", "config.json", "--out", "drawn.png")
+            drawn = (self.folder / "drawn.png").read_bytes()
+            self.assertEqual(drawn, (self.folder / f"ledger/pictures/{point['picture']}.png").read_bytes(), point["settings"])
+        self.expect(0, *points)
+        self.assertEqual(self.read_json("ledger/ledger.json"), ledger, "nothing is measured again")
+
     def test_a_second_run_measures_nothing_again(self):
         self.expect(0, *QUICK, "--out", "ledger")
         first = self.read_json("ledger/ledger.json")
@@ -104,7 +139,8 @@ class Cost(ProgramCase):
     def test_a_killed_run_is_resumed(self):
         for number in (signal.SIGINT, signal.SIGKILL):
             folder = f"ledger-{int(number)}"
-            command = ("cost", "builtin:plain", "--size", "96x54", "--knobs", KNOB, "--set", "shadows.mode=off", "--out", folder)
+            command = ("cost", "builtin:plain", "--size", "96x54", "--knobs", KNOB, "--set", "shadows.mode=off", "--points", "0", "--out",
+                       folder)
             environment = dict(os.environ, XDG_CACHE_HOME=str(self.folder / "cache"))
             with subprocess.Popen([self.program, *command], cwd=self.folder, env=environment, stdout=subprocess.DEVNULL,
                                   stderr=subprocess.DEVNULL) as run:
@@ -137,7 +173,7 @@ class Cost(ProgramCase):
         os.sched_setaffinity(0, {min(cores)})
         try:
             run = self.expect(0, "cost", "dark.gltf", "--quick", "--size", "64x36", "--knobs", "lights.*,lighting.dither",
-                              "--set", "scene.default_light=off", "--out", "ledger")
+                              "--set", "scene.default_light=off", "--points", "0", "--out", "ledger")
         finally:
             os.sched_setaffinity(0, cores)
         self.assertIn("times: processor time of a frame\n", run.stdout)
@@ -157,7 +193,7 @@ class Cost(ProgramCase):
         scene.light(light={"type": "point", "intensity": 12}, translation=[0, 1, 3], extras={"gloam.light.shadow": False})
         scene.camera(translation=[0, 0, 3])
         (self.folder / "card.gltf").write_text(scene.text())
-        self.expect(0, "cost", "card.gltf", "--quick", "--out", "ledger", "--quiet")
+        self.expect(0, "cost", "card.gltf", "--quick", "--points", "0", "--out", "ledger", "--quiet")
         ledger = self.read_json("ledger/ledger.json")
         measured = {row["knob"] for row in ledger["rows"]}
         skipped = {entry["knob"] for entry in ledger["skipped"]}
@@ -173,7 +209,8 @@ class Cost(ProgramCase):
         scene.light(light={"type": "point", "intensity": 12}, translation=[0, 1, 3])
         scene.camera(translation=[0, 0, 3])
         (self.folder / "card.gltf").write_text(scene.text())
-        self.expect(0, "cost", "card.gltf", "--quick", "--size", "48x32", "--out", "ledger", "--quiet", "--set", "shadows.mode=off")
+        self.expect(0, "cost", "card.gltf", "--quick", "--size", "48x32", "--points", "0", "--out", "ledger", "--quiet",
+                    "--set", "shadows.mode=off")
         ledger = self.read_json("ledger/ledger.json")
         self.assertEqual(ledger["size"], [48, 32], "--size is kept")
         self.assertEqual({row["knob"] for row in ledger["rows"] if row["knob"].startswith("shadows.")}, {"shadows.mode"})
@@ -183,7 +220,8 @@ class Cost(ProgramCase):
 
     def test_knobs_of_absent_effects_are_measured_if_they_are_named(self):
         named = "particles.lighting,closeups.filter,fog.radius"
-        self.expect(0, "cost", "builtin:plain", "--quick", "--knobs", named, "--set", "shadows.mode=off", "--out", "ledger")
+        self.expect(0, "cost", "builtin:plain", "--quick", "--knobs", named, "--set", "shadows.mode=off", "--points", "0", "--out",
+                    "ledger")
         self.assertEqual({row["knob"] for row in self.read_json("ledger/ledger.json")["rows"]}, set(named.split(",")))
 
     def test_a_wrong_value_is_2(self):

@@ -14,7 +14,7 @@ class LightCost(ProgramCase):
     def test_light_lists_are_judged_by_false_positives(self):
         knobs = ("lights.culling", "lights.tile_bound", "lights.z_bins")
         run = self.expect(0, "cost", "builtin:lanterns", "--size", "64x36", "--knobs", ",".join(knobs), "--out", "ledger",
-                          "--set", "shadows.mode=off")
+                          "--set", "shadows.mode=off", "--points", "0")
         self.assertIn("counted: false positives a tile", run.stdout)
         rows = {(row["knob"], row["value"]): row for row in self.read_json("ledger/ledger.json")["rows"]}
         counted = {}

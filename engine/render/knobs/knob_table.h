@@ -118,6 +118,7 @@ struct EnumKnob {
   std::string_view taste{};
   bool same_picture = false;
   std::string_view only_with{};
+  bool is_look = false;  ///< Knob::is_look
 
   [[nodiscard]] constexpr E value_of(double number) const {
     constexpr double kCount = static_cast<double>(choices_of_enum<E>().size());
@@ -150,6 +151,7 @@ struct ChoiceKnob {
   std::string_view taste{};
   bool same_picture = false;
   std::string_view only_with{};
+  bool is_look = false;
 
   [[nodiscard]] constexpr const T& value_of(double number) const {
     const bool known = number >= 0.0 && number < static_cast<double>(choices.size());
@@ -178,6 +180,7 @@ struct RangeKnob {
   std::string_view taste{};
   bool same_picture = false;
   std::string_view only_with{};
+  bool is_look = false;
 
   [[nodiscard]] constexpr T value_of(double number) const { return static_cast<T>(number); }
   [[nodiscard]] constexpr double number_of(T value) const { return static_cast<double>(value); }
@@ -219,6 +222,7 @@ template <class K>
   knob.unit = reference.unit;
   if (reference.exact) knob.exact = text_of(reference, *reference.exact);
   knob.taste = reference.taste;
+  knob.is_look = reference.is_look || !reference.taste.empty();
   knob.same_picture = reference.same_picture;
   knob.only_with = reference.only_with;
   return knob;

@@ -38,6 +38,8 @@ struct Knob {
   /// Setting of another knob without which this one changes nothing: "shadows.mode=deferred", or with alternatives,
   /// "shadows.filter=pcss|chs". Empty: none.
   std::string only_with;
+  /// The whole-frame reference keeps the user's value, and combinations of values do not vary it. Every taste is one.
+  bool is_look = false;
 };
 
 /// A knob's value as text (KnobRegistry::set), for one view or while a measure counts. override_of() makes one.

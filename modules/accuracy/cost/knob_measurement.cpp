@@ -7,36 +7,13 @@
 #include <utility>
 
 #include "engine/core/assert.h"
-#include "engine/core/hash.h"
-#include "engine/core/text/formatted.h"
 #include "engine/math/srgb.h"
-#include "modules/accuracy/cost/error_pictures.h"
+#include "modules/accuracy/cost/frame_identity.h"
 #include "modules/accuracy/cost/knob_overrides.h"
+#include "modules/accuracy/cost/settled_frame.h"
 
 namespace gloam {
 namespace {
-
-/// Frames drawn up to the one that is read, so that data carried from frame to frame has settled. Their times go on, so
-/// that simulations start again and run with the knob's value.
-constexpr std::int32_t kSettlingFrames = 3;
-
-/// Version of metrics and protocol: rows stored under another version are measured again.
-constexpr int kMethod = 7;
-
-std::string exact_text(double value) { return formatted("%.17g", value); }
-
-std::string hash_of(const FramePictures& frame) {
-  Hasher hasher;
-  hasher.value(frame.picture.width).value(frame.picture.height).bytes(std::as_bytes(std::span(frame.picture.rgba)));
-  hasher.bytes(std::as_bytes(std::span(frame.linear.rgba)));
-  return std::to_string(hasher.digest());
-}
-
-/// The text with line breaks replaced by spaces.
-std::string joined_line(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
-}
 
 /// The light of pictures before they were encoded, 0…1.
 LinearPicture displayed_light(const Picture& picture) {
@@ -55,10 +32,11 @@ std::vector<LinearPicture> light_of(const std::vector<FramePictures>& frames, bo
 }  // namespace
 
 KnobMeasurement::KnobMeasurement(const CostRequest& request, CostSubject& subject, CostProgress& progress,
-                                 const Knob& knob)
+                                 WholeFrame& whole, const Knob& knob)
     : request_(request),
       subject_(subject),
       progress_(progress),
+      whole_(whole),
       knob_(knob),
       users_(subject.knobs().text(knob)),
       default_(value_text(knob, knob.default_number)),
@@ -83,26 +61,22 @@ Status KnobMeasurement::set(const std::string& value) {
 }
 
 std::string KnobMeasurement::frame_identity(const std::string& value) const {
-  const LedgerHeader& header = request_.header;
-  std::string text = "method " + std::to_string(kMethod) + " scene " + header.scene_hash + " size " +
-                     std::to_string(header.width) + "x" + std::to_string(header.height) + " camera '" + header.camera +
-                     "' time " + exact_text(header.time_s) + " device '" + header.device + "' '" + header.driver +
-                     "' gloam " + header.version + " " + header.build + " samples " + std::to_string(header.samples) +
-                     " " + request_.conditions;
-  for (const Knob& other : subject_.knobs().knobs()) {
-    if (other.name != knob_.name) text += " " + other.name + "=" + subject_.knobs().text(other);
-  }
-  return joined_line(text + " measured " + knob_.name + "=" + value);
+  return conditions_identity(request_) + knobs_identity(subject_.knobs(), knob_.name) + " measured " + knob_.name +
+         "=" + value;
 }
 
 std::string KnobMeasurement::identity(const std::string& value) const {
-  return frame_identity(value) + joined_line(" host '" + request_.header.host + "'") + " frames " +
-         std::to_string(request_.header.frames) + " sequence " + std::to_string(request_.sequence);
+  return frame_identity(value) + protocol_identity(request_);
 }
 
 Result<TimedRow> KnobMeasurement::measure(const std::string& value) {
   TimedRow measured = {.row = {.knob = knob_.name, .value = value, .is_default = value == default_}};
   LedgerRow& row = measured.row;
+  {
+    KnobOverrides users(subject_.knobs());
+    GLOAM_TRY(users.set(std::vector<KnobOverride>{{knob_.name, users_}}));
+    GLOAM_TRY(whole_.prepare());
+  }
   GLOAM_TRY(judge(value, row));
   if (!row.is_default) {
     auto times = time(value);
@@ -119,11 +93,6 @@ Result<TimedRow> KnobMeasurement::measure(const std::string& value) {
   return measured;
 }
 
-Status KnobMeasurement::settle() {
-  for (std::int32_t index = 1 - kSettlingFrames; index <= 0; ++index) GLOAM_TRY(subject_.draw(index));
-  return {};
-}
-
 Result<KnobMeasurement::Drawn> KnobMeasurement::draw(const std::string& value) {
   GLOAM_TRY(set(value));
   return draw();
@@ -132,7 +101,7 @@ Result<KnobMeasurement::Drawn> KnobMeasurement::draw(const std::string& value) {
 Result<KnobMeasurement::Drawn> KnobMeasurement::draw() {
   Drawn drawn;
   if (request_.sequence >= 2) {
-    GLOAM_TRY(settle());
+    GLOAM_TRY(settle(subject_));
     for (std::uint32_t index = 0; index < request_.sequence; ++index) {
       GLOAM_TRY(subject_.draw(static_cast<std::int32_t>(index)));
       auto frame = subject_.read();
@@ -140,8 +109,7 @@ Result<KnobMeasurement::Drawn> KnobMeasurement::draw() {
       drawn.sequence.push_back(std::move(frame->linear));
     }
   }
-  GLOAM_TRY(settle());
-  auto frame = subject_.read();
+  auto frame = draw_settled(subject_);
   if (!frame) return frame.error();
   drawn.frame = std::move(frame).value();
   return drawn;
@@ -154,6 +122,7 @@ Status KnobMeasurement::judge(const std::string& value, LedgerRow& row) {
     const auto drawn = draw(value);
     if (!drawn) return drawn.error();
     row.picture = hash_of(drawn->frame);
+    GLOAM_TRY(judge_whole(drawn->frame, row));
     GLOAM_TRY(progress_.picture(row.picture, drawn->frame.picture));
     return judge_distance(row);
   }
@@ -180,20 +149,17 @@ void KnobMeasurement::check_same_picture(const NoisyReference& reference, Ledger
   row.wrong = "its picture is not equal to the bit to that of " + row.reference_name;
 }
 
-Status KnobMeasurement::compare(const NoisyReference& reference, const FramePictures& frame, LedgerRow& row) {
-  std::vector<float> flip;
-  GLOAM_TRY(reference.judge.judge(frame, row, &flip));
-  row.picture = hash_of(frame);
-  GLOAM_TRY(progress_.picture(row.picture, frame.picture));
-  const Picture& right = reference.judge.reference().picture;
-  if (right.width == 0) return {};
-  row.reference_picture = reference.hash;
-  GLOAM_TRY(progress_.picture(row.reference_picture, right));
-  if (row.heat_map().empty()) return {};
-  row.worst = worst_areas(flip, right.width, right.height);
-  GLOAM_TRY(progress_.picture(row.heat_map(), heat_map(flip, right.width, right.height)));
-  if (row.worst.empty()) return {};
-  return progress_.picture(row.worst_areas(), side_by_side(frame.picture, right, row.worst));
+Status KnobMeasurement::judge_whole(const FramePictures& frame, LedgerRow& row) const {
+  if (knob_.is_look) return {};
+  const auto errors = whole_.judge(frame);
+  if (!errors) return errors.error();
+  row.whole = *errors;
+  return {};
+}
+
+Status KnobMeasurement::judge_by(const NoisyReference& reference, const FramePictures& frame, LedgerRow& row) {
+  GLOAM_TRY(compare(reference, frame, progress_, row));
+  return judge_whole(frame, row);
 }
 
 Status KnobMeasurement::draw_common_reference() {
@@ -227,7 +193,7 @@ Status KnobMeasurement::draw_standard() {
   }
   KnobOverrides overrides(subject_.knobs());
   GLOAM_TRY(overrides.set(measure_->judged_with));
-  GLOAM_TRY(settle());
+  GLOAM_TRY(settle(subject_));
   standard_ = subject_.counters();
   return {};
 }
@@ -244,7 +210,7 @@ Status KnobMeasurement::judge_by_measure(const std::string& value, LedgerRow& ro
   const FrameCounters counters = subject_.counters();
   if (const auto error = measure_->error(counters, standard_)) row.counted = CountedError{*error, measure_->unit};
   row.wrong = measure_->fault(counters);
-  GLOAM_TRY(compare(*common_reference_, drawn->frame, row));
+  GLOAM_TRY(judge_by(*common_reference_, drawn->frame, row));
   check_same_picture(*common_reference_, row);
   return request_.sequence < 2 ? Status() : judge_sequence(exact_sequence_, drawn->sequence, row);
 }
@@ -253,7 +219,7 @@ Status KnobMeasurement::judge_by_exact(const Drawn& drawn, LedgerRow& row) {
   const std::string exact = knob_.name + "=" + knob_.exact;
   row.reference_name = row.reference_name.empty() ? exact : row.reference_name + "; pictures against " + exact;
   if (row.reference_kind.empty()) row.reference_kind = "brute force";
-  GLOAM_TRY(compare(*common_reference_, drawn.frame, row));
+  GLOAM_TRY(judge_by(*common_reference_, drawn.frame, row));
   check_same_picture(*common_reference_, row);
   return request_.sequence < 2 ? Status() : judge_sequence(exact_sequence_, drawn.sequence, row);
 }
@@ -268,7 +234,7 @@ Status KnobMeasurement::judge_by_module(const std::string& value, const Drawn& d
     own.emplace(std::move(reference).value());
   }
   const NoisyReference& reference = own ? *own : *common_reference_;
-  GLOAM_TRY(compare(reference, drawn.frame, row));
+  GLOAM_TRY(judge_by(reference, drawn.frame, row));
   row.reference_noise = reference.noise;
   const double error = row.flip ? row.flip->mean : *row.rmse;
   row.below_noise = reference.noise > 0.0 && error < reference.noise;
@@ -290,7 +256,7 @@ Status KnobMeasurement::judge_motion(const std::string& value, LedgerRow& row) {
 
 Result<std::vector<FramePictures>> KnobMeasurement::draw_motion(const std::string& value, bool references) {
   GLOAM_TRY(set(value));
-  GLOAM_TRY(settle());
+  GLOAM_TRY(settle(subject_));
   std::vector<FramePictures> frames;
   for (std::uint32_t index = 0; index < request_.sequence; ++index) {
     GLOAM_TRY(subject_.draw(static_cast<std::int32_t>(index)));
@@ -302,8 +268,7 @@ Result<std::vector<FramePictures>> KnobMeasurement::draw_motion(const std::strin
   return frames;
 }
 
-Result<KnobMeasurement::NoisyReference> KnobMeasurement::module_reference(const std::string& value,
-                                                                          const FramePictures& frame) {
+Result<NoisyReference> KnobMeasurement::module_reference(const std::string& value, const FramePictures& frame) {
   const std::string identity =
       joined_line(reference_->kind + " " + reference_->name + " of " + hash_of(frame) + " " + frame_identity(value));
   std::optional<JudgedReference> reference = cache_.load(identity);

@@ -7,8 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "modules/accuracy/cost/picture_error.h"
+#include "modules/accuracy/cost/comparison.h"
 #include "modules/accuracy/cost/timing.h"
+#include "modules/accuracy/cost/whole_frame.h"
 #include "modules/accuracy/ledger/reference_cache.h"
 #include "modules/accuracy/ledger/row_json.h"
 #include "modules/accuracy/module.h"
@@ -20,7 +21,8 @@ namespace gloam {
 class KnobMeasurement {
  public:
   /// All must outlive it. progress: gets the pictures.
-  KnobMeasurement(const CostRequest& request, CostSubject& subject, CostProgress& progress, const Knob& knob);
+  KnobMeasurement(const CostRequest& request, CostSubject& subject, CostProgress& progress, WholeFrame& whole,
+                  const Knob& knob);
   ~KnobMeasurement();
   KnobMeasurement(const KnobMeasurement&) = delete;
   KnobMeasurement& operator=(const KnobMeasurement&) = delete;
@@ -38,17 +40,9 @@ class KnobMeasurement {
     FramePictures frame;
     std::vector<LinearPicture> sequence;  ///< empty unless the request asks for one
   };
-  /// A reference and its noise (LedgerRow::reference_noise).
-  struct NoisyReference {
-    PictureJudge judge;
-    std::string hash;  ///< of its picture and light
-    double noise = 0.0;
-  };
-
   /// Everything that a drawn frame depends on, in one line.
   [[nodiscard]] std::string frame_identity(const std::string& value) const;
   [[nodiscard]] Status set(const std::string& value);
-  [[nodiscard]] Status settle();
   /// Draws with the current knobs. The last frame drawn is frame 0.
   [[nodiscard]] Result<Drawn> draw();
   [[nodiscard]] Result<Drawn> draw(const std::string& value);
@@ -59,8 +53,9 @@ class KnobMeasurement {
   [[nodiscard]] Status judge_distance(LedgerRow& row);
   /// Marks the row wrong if its picture must be that of the reference and is not. The row has its picture.
   void check_same_picture(const NoisyReference& reference, LedgerRow& row) const;
-  /// Sets the row's errors and pictures by a reference, and gives the pictures to progress_.
-  [[nodiscard]] Status compare(const NoisyReference& reference, const FramePictures& frame, LedgerRow& row);
+  /// Sets the row's errors and pictures by a reference and by the whole frame, and gives the pictures to progress_.
+  [[nodiscard]] Status judge_by(const NoisyReference& reference, const FramePictures& frame, LedgerRow& row);
+  [[nodiscard]] Status judge_whole(const FramePictures& frame, LedgerRow& row) const;
   /// Draws the reference that all values are compared with.
   [[nodiscard]] Status draw_common_reference();
   /// For a measure: draws the right picture, and reads the counters of the default value.
@@ -79,6 +74,7 @@ class KnobMeasurement {
   const CostRequest& request_;
   CostSubject& subject_;
   CostProgress& progress_;
+  WholeFrame& whole_;
   const Knob& knob_;
   std::string users_;  ///< the knob's value before measuring
   std::string default_;

@@ -8,6 +8,7 @@
 #include "modules/accuracy/cost/knob_measurement.h"
 #include "modules/accuracy/ledger/measurement_store.h"
 #include "modules/accuracy/module.h"
+#include "modules/accuracy/points/points_run.h"
 
 namespace gloam {
 namespace {
@@ -16,14 +17,18 @@ namespace {
 class LedgerRun {
  public:
   LedgerRun(const CostRequest& request, CostSubject& subject, CostProgress& progress)
-      : request_(request), subject_(subject), progress_(progress), store_(request.folder + "/measurements") {
+      : request_(request),
+        subject_(subject),
+        progress_(progress),
+        store_(request.folder + "/measurements"),
+        whole_(request, subject) {
     const std::vector<PlannedRow> rows = planned_rows();
     total_ = rows.size();
     progress_.plan(rows);
   }
 
   [[nodiscard]] Status measure(const std::string& name) {
-    KnobMeasurement measurement(request_, subject_, progress_, knob(name));
+    KnobMeasurement measurement(request_, subject_, progress_, whole_, knob(name));
     KnobRows& rows = knobs_.emplace_back(KnobRows{knob(name).module, measurement.default_is_users(), {}});
     bool timed = false;
     for (const std::string& value : ledger_values(knob(name))) {
@@ -38,13 +43,24 @@ class LedgerRun {
     return {};
   }
 
+  /// The rows, with fronts.
   [[nodiscard]] std::vector<LedgerRow> finish() {
     share_default_times(knobs_);
-    std::vector<LedgerRow> rows;
-    for (KnobRows& knob : knobs_)
-      for (TimedRow& measured : knob.rows) rows.push_back(std::move(measured.row));
-    mark_pareto_front(rows);
-    return rows;
+    return marked_rows();
+  }
+
+  /// Measures the combinations that the rows promise. They share the default's time with the rows.
+  [[nodiscard]] Status measure_points(Ledger& ledger) {
+    PointsRun points(request_, subject_, progress_, whole_, ledger.rows);
+    GLOAM_TRY(points.measure());
+    knobs_.push_back(std::move(points.rows()));
+    share_default_times(knobs_);
+    points.rows() = std::move(knobs_.back());
+    knobs_.pop_back();
+    ledger.rows = marked_rows();
+    ledger.points = points.finish();
+    ledger.model = model_quality(ledger.points);
+    return {};
   }
 
  private:
@@ -85,6 +101,14 @@ class LedgerRun {
     return {};
   }
 
+  [[nodiscard]] std::vector<LedgerRow> marked_rows() const {
+    std::vector<LedgerRow> rows;
+    for (const KnobRows& knob : knobs_)
+      for (const TimedRow& measured : knob.rows) rows.push_back(measured.row);
+    mark_pareto_front(rows);
+    return rows;
+  }
+
   [[nodiscard]] bool has_pictures(const LedgerRow& row) {
     return std::ranges::all_of(row_pictures(row),
                                [this](const std::string& name) { return progress_.has_picture(name); });
@@ -94,6 +118,7 @@ class LedgerRun {
   CostSubject& subject_;
   CostProgress& progress_;
   const MeasurementStore store_;
+  WholeFrame whole_;
   std::size_t done_ = 0;
   std::size_t total_ = 0;
   std::vector<KnobRows> knobs_;
@@ -105,7 +130,9 @@ Result<Ledger> measure_costs(const CostRequest& request, CostSubject& subject, C
   GLOAM_ASSERT(request.header.frames > 0 && request.sequence > 0, "a ledger is of at least one frame");
   LedgerRun run(request, subject, progress);
   for (const std::string& name : request.knobs) GLOAM_TRY(run.measure(name));
-  return Ledger{.header = request.header, .rows = run.finish(), .skipped = request.skipped};
+  Ledger ledger = {.header = request.header, .rows = run.finish(), .skipped = request.skipped};
+  if (request.points > 0 && !ledger.rows.empty()) GLOAM_TRY(run.measure_points(ledger));
+  return ledger;
 }
 
 }  // namespace gloam

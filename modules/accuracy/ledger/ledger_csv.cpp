@@ -45,7 +45,12 @@ constexpr const char* kCsvColumns =
     "knob,value,default,reference_kind,reference,reference_noise,below_noise,counted,counted_unit,wrong,flip_mean,flip_"
     "p99,rmse,"
     "rmse_p99,psnr_db,temporal_mean,temporal_p99,median_ms,p10_ms,p90_ms,cpu_ms,gpu_ms,module_cpu_ms,module_gpu_ms,"
-    "ratio,gpu_bytes,front,ratio_low,ratio_high,pairs,wall_ms,picture,no_effect,camera\n";
+    "ratio,gpu_bytes,front,ratio_low,ratio_high,pairs,wall_ms,picture,no_effect,"
+    "whole_flip_mean,whole_flip_p99,whole_rmse,whole_psnr_db,camera\n";
+
+constexpr const char* kPointColumns =
+    "settings,default,exact,front,flip_mean,flip_p99,rmse,psnr_db,median_ms,p10_ms,p90_ms,wall_ms,cpu_ms,gpu_ms,ratio,"
+    "ratio_low,ratio_high,pairs,gpu_bytes,predicted_ms,predicted_flip,picture\n";
 
 std::string csv_rows(const std::vector<LedgerRow>& rows, const std::string& camera) {
   std::string text;
@@ -60,13 +65,34 @@ std::string csv_rows(const std::vector<LedgerRow>& rows, const std::string& came
     line.number(row.module_cpu_ms).number(row.module_gpu_ms);
     line.number(row.ratio).integer(row.gpu_bytes).flag(row.on_front);
     line.number(row.ratio_low).number(row.ratio_high).integer(row.pairs).number(row.wall_ms);
-    line.text(row.picture).flag(row.no_effect).text(camera);
+    line.text(row.picture).flag(row.no_effect);
+    const auto whole = [&](double WholeError::*member) {
+      return row.whole ? std::optional((*row.whole).*member) : std::nullopt;
+    };
+    line.pair(row.whole ? std::optional(row.whole->flip) : std::nullopt);
+    line.number(whole(&WholeError::rmse)).number(whole(&WholeError::psnr_db)).text(camera);
     text += line.finish();
   }
   return text;
 }
 
 }  // namespace
+
+std::string points_csv(const Ledger& ledger) {
+  std::string text = kPointColumns;
+  for (const LedgerPoint& point : ledger.points) {
+    const LedgerRow& row = point.measured;
+    CsvLine line;
+    line.text(settings_text(point.settings)).flag(row.is_default).flag(point.is_exact).flag(row.on_front);
+    line.pair(row.flip).number(row.rmse).number(row.psnr_db);
+    line.number(row.ms.median_ms).number(row.ms.p10_ms).number(row.ms.p90_ms).number(row.wall_ms);
+    line.number(row.cpu_ms).number(row.gpu_ms).number(row.ratio).number(row.ratio_low).number(row.ratio_high);
+    line.integer(row.pairs).integer(row.gpu_bytes).number(point.predicted_ms).number(point.predicted_flip);
+    line.text(row.picture);
+    text += line.finish();
+  }
+  return text;
+}
 
 std::string ledger_csv(const Ledger& ledger) {
   std::string text = kCsvColumns + csv_rows(ledger.rows, ledger.header.camera);

@@ -14,7 +14,13 @@ using Json = nlohmann::ordered_json;
 Json pair_json(const ErrorPair& pair) { return {{"mean", pair.mean}, {"p99", pair.p99}}; }
 ErrorPair pair_of(const Json& json) { return {json.at("mean").get<double>(), json.at("p99").get<double>()}; }
 
-/// An absent error has no key. An infinite PSNR (identical pictures) is null.
+/// An infinite PSNR (identical pictures) is null.
+Json decibels_json(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+double decibels_of(const Json& json) {
+  return json.is_null() ? std::numeric_limits<double>::infinity() : json.get<double>();
+}
+
+/// An absent error has no key.
 Json errors_json(const LedgerRow& row) {
   Json json = Json::object();
   if (row.counted) json["counted"] = {{"value", row.counted->value}, {"unit", row.counted->unit}};
@@ -22,7 +28,7 @@ Json errors_json(const LedgerRow& row) {
   if (row.flip) json["flip"] = pair_json(*row.flip);
   if (row.rmse) json["rmse"] = *row.rmse;
   if (row.rmse_p99) json["rmse_p99"] = *row.rmse_p99;
-  if (row.psnr_db) json["psnr_db"] = std::isfinite(*row.psnr_db) ? Json(*row.psnr_db) : Json(nullptr);
+  if (row.psnr_db) json["psnr_db"] = decibels_json(*row.psnr_db);
   if (row.temporal) json["temporal"] = pair_json(*row.temporal);
   return json;
 }
@@ -36,9 +42,16 @@ void read_errors(const Json& json, LedgerRow& row) {
   if (json.contains("flip")) row.flip = pair_of(json["flip"]);
   if (json.contains("rmse")) row.rmse = json["rmse"].get<double>();
   if (json.contains("rmse_p99")) row.rmse_p99 = json["rmse_p99"].get<double>();
-  if (json.contains("psnr_db"))
-    row.psnr_db = json["psnr_db"].is_null() ? std::numeric_limits<double>::infinity() : json["psnr_db"].get<double>();
+  if (json.contains("psnr_db")) row.psnr_db = decibels_of(json["psnr_db"]);
   if (json.contains("temporal")) row.temporal = pair_of(json["temporal"]);
+}
+
+Json whole_json(const WholeError& error) {
+  return {{"flip", pair_json(error.flip)}, {"rmse", error.rmse}, {"psnr_db", decibels_json(error.psnr_db)}};
+}
+
+WholeError whole_of(const Json& json) {
+  return {pair_of(json.at("flip")), json.at("rmse").get<double>(), decibels_of(json.at("psnr_db"))};
 }
 
 Json json_of(const LedgerRow& row) {
@@ -46,6 +59,7 @@ Json json_of(const LedgerRow& row) {
   json["reference"] = {{"kind", row.reference_kind}, {"name", row.reference_name}, {"noise", row.reference_noise}};
   json["no_reference"] = row.no_reference;
   json["error"] = errors_json(row);
+  if (row.whole) json["whole"] = whole_json(*row.whole);
   json["below_noise"] = row.below_noise;
   json["wrong"] = row.wrong;
   json["ms"] = {{"median", row.ms.median_ms}, {"p10", row.ms.p10_ms}, {"p90", row.ms.p90_ms}};
@@ -78,6 +92,7 @@ LedgerRow row_of(const Json& json) {
   row.reference_name = reference.at("name").get<std::string>();
   row.reference_noise = reference.at("noise").get<double>();
   read_errors(json.at("error"), row);
+  if (json.contains("whole")) row.whole = whole_of(json["whole"]);
   row.below_noise = json.at("below_noise").get<bool>();
   row.wrong = json.at("wrong").get<std::string>();
   const Json& ms = json.at("ms");
@@ -107,6 +122,46 @@ LedgerRow row_of(const Json& json) {
   row.no_effect_reason = json.value("no_effect_reason", "");
   row.on_front = json.at("front").get<bool>();
   return row;
+}
+
+/// A point is a row without a knob, whose error is that against the whole frame.
+Json json_of(const LedgerPoint& point) {
+  Json json = {{"settings", Json::object()}, {"exact", point.is_exact}};
+  for (const KnobValue& setting : point.settings) json["settings"][setting.knob] = setting.value;
+  json["predicted"] = {{"ms", point.predicted_ms}, {"flip", point.predicted_flip}};
+  const Json row = json_of(point.measured);
+  for (const char* key :
+       {"default", "whole", "ms", "wall_ms", "cpu_ms", "gpu_ms", "ratio", "ratio_interval", "ratio_sure_interval",
+        "pairs", "gpu_bytes", "picture", "reference_picture", "worst", "front"})
+    json[key] = row.at(key);
+  return json;
+}
+
+LedgerPoint point_of(const Json& json) {
+  LedgerPoint point = {.is_exact = json.at("exact").get<bool>()};
+  for (const auto& [knob, value] : json.at("settings").items())
+    point.settings.push_back({knob, value.get<std::string>()});
+  point.predicted_ms = json.at("predicted").at("ms").get<double>();
+  point.predicted_flip = json.at("predicted").at("flip").get<double>();
+  Json row = json;
+  row.update({{"knob", ""}, {"value", settings_text(point.settings)}, {"below_noise", false}, {"wrong", ""}});
+  row["reference"] = {{"kind", kWholeFrameKind}, {"name", kWholeFrameName}, {"noise", 0.0}};
+  row["error"] = json.at("whole");
+  row["module_ms"] = {{"cpu", 0.0}, {"gpu", 0.0}};
+  point.measured = row_of(row);
+  return point;
+}
+
+Json json_of(const ModelQuality& model) {
+  const auto ratio = [](const ModelRatio& value) { return Json{{"median", value.median}, {"worst", value.worst}}; };
+  return {{"points", model.points}, {"time", ratio(model.time)}, {"error", ratio(model.error)}};
+}
+
+ModelQuality model_of(const Json& json) {
+  const auto ratio = [](const Json& value) {
+    return ModelRatio{value.at("median").get<double>(), value.at("worst").get<double>()};
+  };
+  return {json.at("points").get<std::uint32_t>(), ratio(json.at("time")), ratio(json.at("error"))};
 }
 
 Json json_of(const FrameCost& frame) {
@@ -203,6 +258,9 @@ std::string ledger_json(const Ledger& ledger) {
     for (const LedgerRow& row : camera.rows) rows.push_back(json_of(row));
     json["cameras"].push_back({{"camera", camera.camera}, {"time_s", camera.time_s}, {"rows", std::move(rows)}});
   }
+  json["points"] = Json::array();
+  for (const LedgerPoint& point : ledger.points) json["points"].push_back(json_of(point));
+  if (ledger.model) json["model"] = json_of(*ledger.model);
   return dump(json, 2) + "\n";
 }
 
@@ -219,6 +277,8 @@ Result<Ledger> parse_ledger_json(std::string_view text) {
       camera.time_s = json_camera.at("time_s").get<double>();
       for (const Json& row : json_camera.at("rows")) camera.rows.push_back(row_of(row));
     }
+    for (const Json& point : json.value("points", Json::array())) ledger.points.push_back(point_of(point));
+    if (json.contains("model")) ledger.model = model_of(json["model"]);
     return ledger;
   });
   if (!parsed) return parsed.error();

@@ -10,12 +10,13 @@
 namespace gloam {
 namespace {
 
-constexpr std::size_t kColumns = 13;
+constexpr std::size_t kColumns = 14;
 using Line = std::array<std::string, kColumns>;
-const Line kTitles = {"",         "knob", "value",   "counted", "FLIP mean",      "FLIP p99", "RMSE",
-                      "temporal", "ms",   "p10-p90", "ratio",   "module CPU+GPU", "MiB"};
+const Line kTitles = {"",         "knob",  "value", "counted", "FLIP mean", "FLIP p99",       "RMSE",
+                      "temporal", "whole", "ms",    "p10-p90", "ratio",     "module CPU+GPU", "MiB"};
 constexpr std::size_t kCountedColumn = 3;   // shown only if a row has a counted error
 constexpr std::size_t kTemporalColumn = 7;  // shown only if a row has a temporal error
+constexpr std::size_t kWholeColumn = 8;     // shown only if a row has an error against the whole frame
 constexpr std::size_t kTextColumns = 3;     // left-aligned
 
 std::string error_text(const LedgerRow& row, const double* value) {
@@ -41,6 +42,7 @@ Line line_of(const LedgerRow& row) {
           error_text(row, row.flip ? &row.flip->p99 : nullptr),
           error_text(row, row.rmse ? &*row.rmse : nullptr),
           row.temporal ? formatted("%.6f", row.temporal->mean) : "",
+          row.whole ? formatted("%.6f", row.whole->flip.mean) : "",
           formatted("%.3f", row.ms.median_ms),
           formatted("%.3f-%.3f", row.ms.p10_ms, row.ms.p90_ms),
           row.is_default ? std::string("1") : formatted("%.2f (%.2f-%.2f)", row.ratio, row.ratio_low, row.ratio_high),
@@ -51,7 +53,7 @@ Line line_of(const LedgerRow& row) {
 std::string aligned(const Line& line, const std::array<std::size_t, kColumns>& widths) {
   std::string text;
   for (std::size_t i = 0; i < kColumns; ++i) {
-    if (widths[i] == 0 && (i == kCountedColumn || i == kTemporalColumn)) continue;
+    if (widths[i] == 0 && (i == kCountedColumn || i == kTemporalColumn || i == kWholeColumn)) continue;
     const std::string gap(widths[i] - line[i].size(), ' ');
     text += (i > 0 ? "  " : "") + (i < kTextColumns ? line[i] + gap : gap + line[i]);
   }
@@ -124,6 +126,31 @@ std::string no_reference_text(const LedgerRow& row) {
   return row.no_reference.empty() ? "no value is more right than another" : row.no_reference;
 }
 
+std::string points_table(const Ledger& ledger) {
+  if (ledger.points.empty()) return {};
+  std::string text =
+      formatted("the front of %zu measured combinations, the fastest first; error: mean FLIP against the ",
+                ledger.points.size()) +
+      "frame with every knob at its most exact value\n       ms  ratio                 error  setting\n";
+  for (const LedgerPoint& point : ledger.points) {
+    const LedgerRow& row = point.measured;
+    if (!row.on_front && !row.is_default && !point.is_exact) continue;
+    const std::string ratio =
+        row.is_default ? std::string("1") : formatted("%.2f (%.2f-%.2f)", row.ratio, row.ratio_low, row.ratio_high);
+    text += formatted("%s %9.3f  %-18s  %8.6f  ", row.on_front ? "*" : " ", row.ms.median_ms, ratio.c_str(),
+                      row.flip->mean);
+    text += row.is_default   ? "the user's own settings"
+            : point.is_exact ? "the exact setting"
+                             : settings_text(point.settings);
+    text += "\n";
+  }
+  if (ledger.model)
+    text += formatted("measured / predicted over %u combinations: time %.2f (worst %.2f), error %.2f (worst %.2f)\n",
+                      ledger.model->points, ledger.model->time.median, ledger.model->time.worst,
+                      ledger.model->error.median, ledger.model->error.worst);
+  return text;
+}
+
 std::string ledger_table(const Ledger& ledger) {
   std::vector<Line> lines = {kTitles};
   for (const LedgerRow& row : ledger.rows)
@@ -132,6 +159,8 @@ std::string ledger_table(const Ledger& ledger) {
   if (!counts) lines.front()[kCountedColumn].clear();
   const bool moves = std::ranges::any_of(ledger.rows, [](const LedgerRow& row) { return row.temporal.has_value(); });
   if (!moves) lines.front()[kTemporalColumn].clear();
+  const bool whole = std::ranges::any_of(ledger.rows, [](const LedgerRow& row) { return row.whole.has_value(); });
+  if (!whole) lines.front()[kWholeColumn].clear();
   std::array<std::size_t, kColumns> widths{};
   for (const Line& line : lines) {
     for (std::size_t i = 0; i < kColumns; ++i) widths[i] = std::max(widths[i], line[i].size());
@@ -148,7 +177,8 @@ std::string ledger_table(const Ledger& ledger) {
   for (const SkippedKnob& skipped : ledger.skipped) text += skipped.knob + ": not measured: " + skipped.reason + "\n";
   return text +
          "* no other value of the knob is as cheap and as right; = the default's picture and time; ratio to the "
-         "default's time, with its 95 % interval; RMSE in cd/m²; module CPU+GPU: wall time of the knob's module "
+         "default's time, with its 95 % interval; RMSE in cd/m²; whole: mean FLIP against the frame with every knob at "
+         "its most exact value; module CPU+GPU: wall time of the knob's module "
          "alone\n";
 }
 

@@ -141,6 +141,7 @@ std::string point_mark(const PlotPoint& point) {
 class PlotNames {
  public:
   std::string place(const PlotPoint& point, const std::string& name) {
+    if (name.empty()) return {};
     const double width = 7.0 * static_cast<double>(name.size());
     constexpr std::array<double, 7> kOffsets = {-12.0, 21.0, -27.0, 36.0, -42.0, 51.0, -57.0};
     const double x =
@@ -167,6 +168,12 @@ class PlotNames {
   std::vector<Box> placed_;
 };
 
+/// The settings of a combination are too long for a plot.
+std::string plot_name(const LedgerRow& row) {
+  if (!row.knob.empty()) return row.value;
+  return row.is_default ? "default" : row.error() == 0.0 ? "exact" : "";
+}
+
 std::string front_line(const std::vector<PlotPoint>& points) {
   std::string path;
   for (const PlotPoint& point : points)
@@ -181,11 +188,11 @@ std::string plot_points(const KnobResults& knob, std::vector<PlotPoint> points) 
   for (const PlotPoint& point : points) names.keep_free(point);
   for (const PlotPoint& point : points) {
     const LedgerRow& row = *point.row;
-    const std::string label = row.value + (row.is_default ? " (default)" : "") + ": time " + ratio_text(row) +
-                              ", error " + error_text_of(row);
+    const std::string label = row.value + (row.is_default && row.value != "default" ? " (default)" : "") + ": time " +
+                              ratio_text(row) + ", error " + error_text_of(row);
     const std::string content = "<title>" + escaped(label) + "</title>" +
                                 plot_line(point.low_x, point.y, point.high_x, point.y, "whisker") + point_mark(point) +
-                                names.place(point, row.value);
+                                names.place(point, plot_name(row));
     svg += look_link(row, knob.standard, content, "aria-label=\"" + escaped(label) + "\"") + "\n";
   }
   return svg;

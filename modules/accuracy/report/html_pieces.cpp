@@ -5,7 +5,7 @@
 
 namespace gloam {
 
-std::string setting_of(const LedgerRow& row) { return row.knob + "=" + row.value; }
+std::string setting_of(const LedgerRow& row) { return row.knob.empty() ? row.value : row.knob + "=" + row.value; }
 
 std::string look_link(const LedgerRow& row, const LedgerRow* before, std::string_view content,
                       std::string_view attributes) {

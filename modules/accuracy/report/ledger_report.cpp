@@ -32,8 +32,11 @@ std::string page_header(const ReportData& data) {
   if (!data.ledger.cameras.empty()) html += formatted("; the worst of %zu cameras", data.ledger.cameras.size());
   if (header.quick) html += "; measured quickly, so errors and times are noisier";
   html +=
-      ".</p>\n<nav aria-label=\"Sections\"><a href=\"#turn-down\">What to turn down</a> <a href=\"#effects\">Each "
-      "effect</a> <a href=\"#look\">Look</a> ";
+      ".</p>\n<nav aria-label=\"Sections\">" +
+      std::string(data.ledger.points.empty()
+                      ? "<a href=\"#turn-down\">What to turn down</a>"
+                      : "<a href=\"#budgets\">What to turn down</a> <a href=\"#turn-down\">One knob at a time</a>") +
+      " <a href=\"#effects\">Each effect</a> <a href=\"#look\">Look</a> ";
   if (!data.ledger.cameras.empty()) html += "<a href=\"#cameras\">Cameras</a> ";
   html += "<a href=\"#everything\">Everything</a> <a href=\"#conditions\">Conditions</a></nav>\n";
   return html + "</header>\n";
@@ -54,7 +57,7 @@ std::string page_pictures(const ReportData& data) {
 std::string ledger_report(const Ledger& ledger, const ReportRequest& request) {
   const ReportData data = report_data(ledger, request);
   std::string html = page_head(data) + page_header(data) + "<main id=\"main\">\n";
-  html += savings_section(data);
+  html += budgets_section(data) + savings_section(data);
   html += effects_section(data);
   html += look_section(data);
   html += cameras_section(data);

@@ -27,7 +27,8 @@ std::string row_option(const ReportData& data, const LedgerRow& row) {
   if (!row.wrong.empty()) note += "; wrong: " + row.wrong;
   return "<option value=\"" + escaped(setting_of(row)) + "\" data-picture=\"" + known(row.picture) + "\" data-heat=\"" +
          known(row.heat_map()) + "\" data-worst=\"" + known(row.worst_areas()) + "\" data-areas=\"" + areas_text(row) +
-         "\" data-note=\"" + escaped(note) + "\">" + escaped(setting_of(row) + (row.is_default ? " (default)" : "")) +
+         "\" data-note=\"" + escaped(note) + "\">" +
+         escaped(setting_of(row) + (row.is_default && setting_of(row) != "default" ? " (default)" : "")) +
          "</option>\n";
 }
 
@@ -39,9 +40,19 @@ std::string reference_option(const ReportData& data, const LedgerRow& row) {
          escaped(text) + "\">" + escaped(text) + "</option>\n";
 }
 
+/// Combinations and the whole frame.
+std::string point_options(const ReportData& data) {
+  std::string html;
+  for (const LedgerPoint& point : data.ledger.points)
+    if (data.has_picture(point.measured.picture)) html += row_option(data, point.measured);
+  if (html.empty()) return {};
+  return "<optgroup label=\"combinations\">\n" + html + reference_option(data, data.ledger.points.front().measured) +
+         "</optgroup>\n";
+}
+
 /// Values and references, a group for each knob.
 std::string picture_options(const ReportData& data) {
-  std::string html;
+  std::string html = point_options(data);
   for (const KnobResults& knob : data.knobs) {
     html += "<optgroup label=\"" + escaped(knob.name) + (knob.no_effect ? " (no effect)" : "") + "\">\n";
     std::set<std::string> references;

@@ -137,8 +137,25 @@ function startTable() {
   filter();
 }
 
+// Copies the text of a setting's file. Without access to the clipboard, the text is selected.
+function startCopying() {
+  document.addEventListener('click', async (event) => {
+    const button = event.target.closest('button[data-copy]');
+    if (!button) return;
+    const text = byId(button.dataset.copy);
+    try {
+      await navigator.clipboard.writeText(text.textContent);
+      button.textContent = 'Copied';
+    } catch {
+      getSelection().selectAllChildren(text);
+      button.textContent = 'Selected: press Ctrl+C';
+    }
+  });
+}
+
 startLook();
 startTable();
+startCopying();
 )js";
 
 }  // namespace gloam

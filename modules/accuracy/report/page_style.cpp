@@ -34,6 +34,11 @@ nav a { margin-right: 1rem; display: inline-block; }
   grid-template-columns: repeat(auto-fill, minmax(min(30rem, 100%), 1fr)); }
 .card, .knob { border: 1px solid var(--line); border-radius: 6px; background: var(--panel); padding: .9rem 1rem; }
 .knob { margin: .75rem 0; }
+.setting pre { max-height: 14rem; overflow: auto; margin: .4rem 0; }
+.setting img { width: 100%; margin: .4rem 0; }
+.setting ul { margin: .25rem 0; padding-left: 1.25rem; }
+.points { width: 100%; }
+.points code { white-space: normal; overflow-wrap: anywhere; }
 .gain { font-size: 1.2rem; }
 .pair { display: grid; grid-template-columns: 1fr 1fr; gap: .6rem; margin: .5rem 0; }
 figure { margin: 0; }

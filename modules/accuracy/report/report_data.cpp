@@ -75,9 +75,15 @@ std::vector<std::string> names_by_importance(const ReportData& data) {
   std::vector<std::string> names;
   for (const KnobResults& knob : data.knobs)
     if (knob.standard != nullptr) names.push_back(knob.standard->picture);
+  for (const LedgerPoint& point : data.ledger.points)
+    if (point.measured.on_front || point.measured.is_default || point.is_exact) names.push_back(point.measured.picture);
   for (const auto* list : {&data.savings.no_less_right, &data.savings.below_001, &data.savings.below_003})
     for (const Saving& saving : *list) names.push_back(saving.row->picture);
   for (const LedgerRow& row : data.ledger.rows) names.push_back(row.picture);
+  for (const LedgerPoint& point : data.ledger.points)
+    for (const std::string& name : {point.measured.reference_picture, point.measured.picture,
+                                    point.measured.worst_areas(), point.measured.heat_map()})
+      names.push_back(name);
   for (const LedgerRow& row : data.ledger.rows) names.push_back(row.reference_picture);
   for (const LedgerRow& row : data.ledger.rows) names.push_back(row.worst_areas());
   for (const LedgerRow& row : data.ledger.rows) names.push_back(row.heat_map());
@@ -109,7 +115,7 @@ bool ReportData::has_picture(std::string_view name) const {
 }
 
 ReportData report_data(const Ledger& ledger, const ReportRequest& request) {
-  ReportData data = {.ledger = ledger, .command = request.command};
+  ReportData data = {.ledger = ledger, .command = request.command, .meanings = request.meanings};
   data.knobs = group_by_knob(ledger, request);
   data.savings = find_savings(data.knobs);
   embed_pictures(request, data);

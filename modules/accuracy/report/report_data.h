@@ -38,6 +38,7 @@ struct Savings {
 struct ReportData {
   const Ledger& ledger;
   std::string command;
+  std::vector<KnobMeaning> meanings;
   std::vector<KnobResults> knobs;  ///< in the order of the ledger
   Savings savings;
   /// Name and data: URI of the embedded pictures.

@@ -53,7 +53,8 @@ std::string saving_list(const ReportData& data, const std::vector<Saving>& list,
 
 std::string savings_section(const ReportData& data) {
   std::string html = "<section id=\"turn-down\" aria-labelledby=\"turn-down-title\">\n";
-  html += "<h2 id=\"turn-down-title\">What to turn down</h2>\n";
+  html += "<h2 id=\"turn-down-title\">" +
+          std::string(data.ledger.points.empty() ? "What to turn down" : "One knob at a time") + "</h2>\n";
   html +=
       "<p>Values that take significantly less time than the default (their 95 % interval ends below 1). Every value "
       "was "

@@ -11,6 +11,9 @@
 
 namespace gloam {
 
+/// The best combination for each time and each error, the front, and how well the model predicted. Empty without
+/// points.
+[[nodiscard]] std::string budgets_section(const ReportData& data);
 /// Values that give back time at a small error.
 [[nodiscard]] std::string savings_section(const ReportData& data);
 /// A plot and a table for each knob; knobs without effect and knobs that were not measured.
@@ -33,7 +36,7 @@ namespace gloam {
 /// An image that the page's script fills from the embedded pictures, in a link to the full picture; a text if there is
 /// no picture.
 [[nodiscard]] std::string picture_html(const ReportData& data, const std::string& name, std::string_view description);
-/// "knob=value"
+/// "knob=value"; of a point, its settings_text()
 [[nodiscard]] std::string setting_of(const LedgerRow& row);
 
 extern const std::string_view kPageStyle;   ///< CSS

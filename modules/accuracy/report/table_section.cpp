@@ -73,6 +73,10 @@ std::vector<TableColumn> table_columns(const Ledger& ledger) {
     columns.push_back({"Temporal", true, [](const ReportData&, const LedgerRow& row) {
                          return number_cell(row.temporal ? std::optional(row.temporal->mean) : std::nullopt);
                        }});
+  if (std::ranges::any_of(ledger.rows, [](const LedgerRow& row) { return row.whole.has_value(); }))
+    columns.push_back({"Whole frame, FLIP", true, [](const ReportData&, const LedgerRow& row) {
+                         return number_cell(row.whole ? std::optional(row.whole->flip.mean) : std::nullopt);
+                       }});
   columns.push_back(
       {"Module CPU, ms", true, [](const ReportData&, const LedgerRow& row) { return number_cell(row.module_cpu_ms); }});
   columns.push_back({"Module passes, ms", true,
@@ -141,7 +145,8 @@ std::string table_section(const ReportData& data) {
   return html +
          "<p>Front: no other value of the knob is as cheap and as right. Ratio: time divided by the default’s, the "
          "median over "
-         "pairs of neighbouring frames, with its 95 % interval. Module times are those of the knob’s module alone, on "
+         "pairs of neighbouring frames, with its 95 % interval. Whole frame: against the frame with every knob at its "
+         "most exact value. Module times are those of the knob’s module alone, on "
          "the "
          "wall.</p>\n</section>\n";
 }
@@ -170,7 +175,9 @@ std::string conditions_section(const ReportData& data) {
       escaped(data.command) + "</code></pre>\n";
   return html +
          "<p>The same numbers are in <a href=\"ledger.json\">ledger.json</a> and <a "
-         "href=\"ledger.csv\">ledger.csv</a>.</p>\n</section>\n";
+         "href=\"ledger.csv\">ledger.csv</a>" +
+         (data.ledger.points.empty() ? "" : " (combinations: <a href=\"points.csv\">points.csv</a>)") +
+         ".</p>\n</section>\n";
 }
 
 }  // namespace gloam

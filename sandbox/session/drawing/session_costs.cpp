@@ -5,7 +5,9 @@
 #include <utility>
 
 #include "engine/core/processor_time.h"
+#include "sandbox/session/drawing/enlarged.h"
 #include "sandbox/session/drawing/frame_tracing.h"
+#include "sandbox/session/program_knobs.h"
 
 namespace gloam {
 namespace {
@@ -58,6 +60,9 @@ Status SessionCosts::settle_session() {
 Result<FrameCost> SessionCosts::draw(std::int32_t index) {
   if (!settled_) GLOAM_TRY(settle_session());
   session_.set_clock(options_.time_s + index * options_.dt_s, options_.dt_s);
+  const double scale = view_scale(knobs());
+  request_.settings.width = scaled_size(options_.width, scale);
+  request_.settings.height = scaled_size(options_.height, scale);
   const double begin_ms = processor_time_ms();
   const auto sample = session_.render_frame(request_);
   if (!sample) return sample.error();
@@ -81,6 +86,19 @@ Result<std::uint64_t> SessionCosts::gpu_bytes() {
 }
 
 Result<FramePictures> SessionCosts::read() {
+  auto drawn = read_drawn();
+  if (!drawn) return drawn.error();
+  return full_size(*drawn);
+}
+
+FramePictures SessionCosts::full_size(const FramePictures& pictures) const {
+  const auto resize = [&](const auto& picture) {
+    return picture.width == 0 ? picture : enlarged(picture, options_.width, options_.height);
+  };
+  return {.linear = resize(pictures.linear), .picture = resize(pictures.picture)};
+}
+
+Result<FramePictures> SessionCosts::read_drawn() {
   auto linear = session_.renderer->read_linear(request_.settings.id);
   if (!linear) return linear.error();
   auto picture = session_.renderer->read_picture(request_.settings.id);
@@ -95,7 +113,7 @@ Result<FramePictures> SessionCosts::redraw(const std::function<void(World&)>& ch
   Status drawn;
   for (int frame = 0; frame < 2 && drawn.ok(); ++frame)
     if (const auto cost = draw(index_); !cost) drawn = cost.error();
-  Result<FramePictures> pictures = drawn.ok() ? read() : Result<FramePictures>(drawn.error());
+  Result<FramePictures> pictures = drawn.ok() ? read_drawn() : Result<FramePictures>(drawn.error());
   restore(session_.world);
   return pictures;
 }
@@ -109,10 +127,15 @@ Result<FramePictures> SessionCosts::draw_reference(const ReferenceInfo& referenc
     if (!read) return read.error();
     traced = std::move(read).value();
   }
-  ReferenceInput input = input_of(frame, samples);
+  const bool scaled = view_scale(knobs()) < 1.0;
+  auto drawn = scaled ? read_drawn() : Result<FramePictures>(FramePictures());
+  if (!drawn) return drawn.error();
+  ReferenceInput input = input_of(scaled ? *drawn : frame, samples);
   input.tracer = traced.tracer.get();
   input.geometry = needs_rays ? &traced.geometry : nullptr;
-  return reference.draw(input);
+  auto pictures = reference.draw(input);
+  if (!pictures || !scaled) return pictures;
+  return full_size(*pictures);
 }
 
 Result<std::optional<MovedDistance>> SessionCosts::measure_distance(const ReferenceInfo& reference) {

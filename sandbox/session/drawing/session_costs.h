@@ -13,6 +13,7 @@ namespace gloam {
 
 /// Draws a session's frames for the cost ledger. Frame `index` is at time --time + index · --dt. On a device that is a
 /// processor, a frame's time is processor time of the process, divided by the cores: other processes hardly change it.
+/// With views.scale below 1, frames are drawn smaller, and read() enlarges them; that takes no time of a frame.
 class SessionCosts final : public CostSubject {
  public:
   /// session and options must outlive it.
@@ -34,6 +35,10 @@ class SessionCosts final : public CostSubject {
   /// Draws frames as the timing of a row does, until what a session's first frames need is freed. Without that the
   /// first rows have more memory than later rows of the same settings.
   [[nodiscard]] Status settle_session();
+
+  /// The pictures of the last frame as they were drawn: with views.scale, smaller than the full size.
+  [[nodiscard]] Result<FramePictures> read_drawn();
+  [[nodiscard]] FramePictures full_size(const FramePictures& pictures) const;
   /// Draws the last frame again after `change` has modified the world, then calls `restore`.
   [[nodiscard]] Result<FramePictures> redraw(const std::function<void(World&)>& change,
                                              const std::function<void(World&)>& restore);

@@ -8,6 +8,7 @@
 #include "sandbox/output/pictures/image_io.h"
 #include "sandbox/output/pictures/legend.h"
 #include "sandbox/output/trace.h"
+#include "sandbox/session/drawing/enlarged.h"
 #include "sandbox/session/loading/scene_loading.h"
 #include "sandbox/session/results/stats.h"
 #include "sandbox/session/results/view_values.h"
@@ -39,6 +40,7 @@ Status write_picture(const DrawnRun& run, const std::string& path) {
   }
   auto picture = run.session.renderer->read_picture(run.view.id);
   if (!picture) return picture.error();
+  if (run.width > 0) *picture = enlarged(*picture, run.width, run.height);
   const std::string_view shown = std::string_view(run.view.visualizer).substr(0, run.view.visualizer.find(':'));
   for (const VisualizerInfo& info : run.session.renderer->visualizers())
     if (info.name == shown && shown != "none")
@@ -53,7 +55,10 @@ Status write_reports(const DrawnRun& run, const Options& options, Console& conso
     GLOAM_TRY(write_file(options.trace, chrome_trace(run.samples)));
   }
   if (options.pick) {
-    const auto lines = run.session.renderer->pick(run.session.world, run.view.id, options.pick->x, options.pick->y);
+    // The pixel is one of the full size.
+    const auto x = static_cast<std::uint32_t>(std::uint64_t{options.pick->x} * run.view.width / options.width);
+    const auto y = static_cast<std::uint32_t>(std::uint64_t{options.pick->y} * run.view.height / options.height);
+    const auto lines = run.session.renderer->pick(run.session.world, run.view.id, x, y);
     if (!lines) return lines.error();
     for (const std::string& line : *lines) console.print(line + "\n");
   }

@@ -20,6 +20,8 @@ struct DrawnRun {
   Session& session;
   const ViewSettings& view;
   std::span<const FrameSample> samples;
+  std::uint32_t width = 0;  ///< of the picture as it is written; 0: as it was drawn
+  std::uint32_t height = 0;
 };
 
 /// Writes the picture to `path` (.exr: read_view_values(); otherwise a PNG as shown, with the visualizer's legend) and

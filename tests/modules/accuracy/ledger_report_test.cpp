@@ -31,7 +31,38 @@ LedgerRow value_row(const std::string& knob, const std::string& value, double ra
 Ledger ledger_of(std::vector<LedgerRow> rows) {
   Ledger ledger = test::full_ledger();
   ledger.skipped.clear();
+  ledger.points.clear();
+  ledger.model.reset();
   ledger.rows = std::move(rows);
+  return ledger;
+}
+
+LedgerPoint point_at(double ms, double flip, std::vector<KnobValue> settings) {
+  LedgerPoint point = {.settings = std::move(settings)};
+  LedgerRow& row = point.measured;
+  row.value = settings_text(point.settings);
+  row.is_default = point.settings.empty();
+  row.reference_kind = kWholeFrameKind;
+  row.reference_name = kWholeFrameName;
+  row.flip = ErrorPair{flip, flip};
+  row.ms.median_ms = ms;
+  row.ratio = ms / 40.0;
+  row.ratio_low = row.is_default ? 1.0 : 0.98 * row.ratio;
+  row.ratio_high = row.is_default ? 1.0 : 1.02 * row.ratio;
+  row.picture = row.value;
+  row.reference_picture = "whole";
+  row.on_front = true;
+  return point;
+}
+
+/// 12 ms, the default at 40 ms, and the exact setting at 90 ms.
+Ledger ledger_with_points() {
+  Ledger ledger =
+      ledger_of({value_row("shadows.filter", "hard", 0.5, 0.05), value_row("shadows.filter", "chs", 1.0, 0.005)});
+  ledger.points = {point_at(12.0, 0.05, {{"shadows.filter", "hard"}}), point_at(40.0, 0.005, {}),
+                   point_at(90.0, 0.0, {{"lights.culling", "brute"}})};
+  ledger.points.back().is_exact = true;
+  ledger.model = ModelQuality{1, {1.25, 0.5}, {0.75, 3.5}};
   return ledger;
 }
 
@@ -98,6 +129,44 @@ TEST(LedgerReport, first_screen_has_the_greatest_savings_of_each_bound_once) {
   EXPECT_EQ(savings.below_001[0].row->value, "low");
   ASSERT_THAT(savings.below_003, SizeIs(1));
   EXPECT_EQ(savings.below_003[0].row->value, "lower");
+}
+
+TEST(LedgerReport, answers_what_to_turn_down_for_each_budget) {
+  const std::string html = ledger_report(ledger_with_points(), {.meanings = {{"shadows.filter", "width", "chs"}}});
+  EXPECT_THAT(html, HasSubstr("No measured setting is as fast as 8 ms: the fastest takes 12.0 ms."));
+  EXPECT_THAT(html, HasSubstr("<h4>Within 16 ms, 33 ms</h4>\n<p><strong class=\"gain\">12.0 ms (11.8–12.2)"));
+  EXPECT_THAT(html, HasSubstr("<h4>Within 50 ms</h4>\n<p><strong class=\"gain\">40.0 ms</strong>: your own settings"));
+  EXPECT_THAT(html, HasSubstr("<h4>Within 100 ms</h4>\n<p><strong class=\"gain\">90.0 ms"));
+  EXPECT_THAT(html, HasSubstr("Error 0.0500 FLIP: seen when flipping between the pictures."));
+  EXPECT_THAT(html, HasSubstr("<code>shadows.filter</code> chs → <strong>hard</strong>")) << "what is turned down";
+  EXPECT_THAT(html, HasSubstr("{\n  &quot;shadows.filter&quot;: &quot;hard&quot;\n}"));
+  EXPECT_THAT(html,
+              HasSubstr("href=\"data:application/json,%7B%0A%20%20%22shadows.filter%22%3A%20%22hard%22%0A%7D%0A\""));
+  EXPECT_THAT(html, HasSubstr("<h4>Error below 0.01, 0.03</h4>\n<p><strong class=\"gain\">40.0 ms"));
+  EXPECT_THAT(html, HasSubstr("predicted time is 1.25 in the median, 0.500 at worst; for the error it is 0.750"));
+  EXPECT_THAT(html, HasSubstr("Error against time of whole settings"));
+}
+
+TEST(LedgerReport, without_points_has_no_budgets) {
+  Ledger ledger = ledger_with_points();
+  ledger.points.clear();
+  EXPECT_THAT(ledger_report(ledger, {}), Not(HasSubstr("budgets")));
+}
+
+TEST(LedgerReport, offers_the_points_pictures_and_the_whole_frame) {
+  ReportRequest request;
+  request.picture = [](const std::string& name) { return std::optional("jpeg of " + name); };
+  const std::string html = ledger_report(ledger_with_points(), request);
+  EXPECT_THAT(html, HasSubstr("<option value=\"shadows.filter=hard\" data-picture=\"shadows.filter=hard\""));
+  EXPECT_THAT(html, HasSubstr("<option value=\"reference whole\""));
+}
+
+TEST(LedgerReport, escapes_settings_of_points) {
+  Ledger ledger = ledger_with_points();
+  ledger.points[0] = point_at(12.0, 0.05, {{"<b>", "'<i>\""}});
+  const std::string html = ledger_report(ledger, {});
+  EXPECT_THAT(html, Not(HasSubstr("<b>")));
+  EXPECT_THAT(html, Not(HasSubstr("<i>")));
 }
 
 TEST(LedgerReport, offers_no_wrong_value) {

@@ -29,6 +29,7 @@ inline LedgerRow full_row(std::uint32_t seed = 1) {
   row.rmse_p99 = number(random) * 1e-9;
   row.psnr_db = number(random) * 60.0;
   row.temporal = ErrorPair{number(random), number(random)};
+  if (seed % 4 != 3) row.whole = WholeError{{number(random), number(random)}, number(random) * 1e3, number(random)};
   row.ms = {number(random) * 10.0, number(random), number(random) * 100.0};
   row.wall_ms = number(random);
   row.cpu_ms = number(random);
@@ -65,6 +66,37 @@ inline LedgerRow bare_row() {
   return row;
 }
 
+inline LedgerPoint full_point(std::uint32_t seed) {
+  LedgerRow row = full_row(seed);
+  LedgerPoint point = {.settings = {{"shadows.filter", "hard"}, {"views.scale", "0." + std::to_string(seed)}}};
+  point.is_exact = seed % 2 == 0;
+  point.predicted_ms = row.temporal->mean;
+  point.predicted_flip = row.temporal->p99;
+  point.measured = {.value = settings_text(point.settings), .is_default = seed % 3 == 0};
+  point.measured.reference_kind = kWholeFrameKind;
+  point.measured.reference_name = kWholeFrameName;
+  point.measured.whole = WholeError{*row.flip, *row.rmse, *row.psnr_db};
+  point.measured.flip = row.flip;
+  point.measured.rmse = row.rmse;
+  point.measured.psnr_db = row.psnr_db;
+  point.measured.ms = row.ms;
+  point.measured.wall_ms = row.wall_ms;
+  point.measured.cpu_ms = row.cpu_ms;
+  point.measured.gpu_ms = row.gpu_ms;
+  point.measured.ratio = row.ratio;
+  point.measured.ratio_low = row.ratio_low;
+  point.measured.ratio_high = row.ratio_high;
+  point.measured.sure_low = row.sure_low;
+  point.measured.sure_high = row.sure_high;
+  point.measured.pairs = row.pairs;
+  point.measured.gpu_bytes = row.gpu_bytes;
+  point.measured.picture = row.picture;
+  point.measured.reference_picture = row.reference_picture;
+  point.measured.worst = row.worst;
+  point.measured.on_front = row.on_front;
+  return point;
+}
+
 inline Ledger full_ledger() {
   Ledger ledger;
   ledger.header = {.scene = "scenes/court \"yard\".gltf",
@@ -88,6 +120,8 @@ inline Ledger full_ledger() {
   ledger.rows.back().flip = ErrorPair{};
   ledger.rows.back().psnr_db = std::numeric_limits<double>::infinity();
   ledger.rows.push_back(bare_row());
+  for (std::uint32_t seed = 5; seed < 9; ++seed) ledger.points.push_back(full_point(seed));
+  ledger.model = ModelQuality{2, {1.25, 0.5}, {0.75, 3.5}};
   ledger.skipped = {{"grass.lod", "the scene does not call for grass: no patch"}};
   return ledger;
 }

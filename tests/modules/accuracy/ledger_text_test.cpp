@@ -27,6 +27,8 @@ TEST(ledger_json, reads_back_what_it_wrote) {
   EXPECT_EQ(read->header, ledger.header);
   EXPECT_EQ(read->rows, ledger.rows);
   EXPECT_EQ(read->skipped, ledger.skipped);
+  EXPECT_EQ(read->points, ledger.points);
+  EXPECT_EQ(read->model, ledger.model);
 }
 
 TEST(ledger_json, reads_back_rows_one_by_one) {
@@ -48,6 +50,11 @@ TEST(ledger_json, has_what_scripts_look_for) {
   EXPECT_EQ(json["rows"][0]["reference"]["kind"], "traced");
   EXPECT_TRUE(json["rows"][4]["error"]["psnr_db"].is_null()) << "the same picture has no finite ratio";
   EXPECT_TRUE(json["rows"][5]["error"].empty()) << "no reference, no errors";
+  EXPECT_TRUE(json["rows"][0]["whole"]["flip"]["p99"].is_number());
+  EXPECT_EQ(json["points"][0]["settings"]["shadows.filter"], "hard");
+  EXPECT_TRUE(json["points"][0]["whole"]["rmse"].is_number());
+  EXPECT_TRUE(json["points"][0]["predicted"]["ms"].is_number());
+  EXPECT_EQ(json["model"]["time"]["worst"], 0.5);
 }
 
 TEST(ledger_json, says_what_is_wrong_with_a_text) {
@@ -64,11 +71,15 @@ TEST(ledger_json, says_what_is_wrong_with_a_text) {
 TEST(ledger_json, reads_ledgers_of_the_same_version_without_later_keys) {
   auto json = nlohmann::json::parse(ledger_json(full_ledger()));
   json.erase("clock");
+  json.erase("points");
+  json.erase("model");
   for (auto& row : json["rows"])
-    for (const char* later : {"wall_ms", "ratio_interval", "ratio_sure_interval", "pairs", "picture", "no_effect"})
+    for (const char* later :
+         {"wall_ms", "ratio_interval", "ratio_sure_interval", "pairs", "picture", "no_effect", "whole"})
       row.erase(later);
   const auto read = parse_ledger_json(json.dump());
   ASSERT_TRUE(read.ok()) << read.error().message;
+  EXPECT_TRUE(read->points.empty() && !read->model && !read->rows[0].whole);
   EXPECT_EQ(read->rows[0].ratio, full_ledger().rows[0].ratio);
   EXPECT_EQ(read->rows[0].ratio_high, read->rows[0].ratio) << "an interval of one point";
 }
@@ -152,7 +163,44 @@ TEST(ledger_csv, reads_back_what_it_wrote) {
     EXPECT_EQ(cell("pairs"), std::to_string(row.pairs));
     EXPECT_EQ(cell("picture"), row.picture);
     EXPECT_EQ(cell("no_effect"), row.no_effect ? "1" : "0");
+    expect_number("whole_flip_mean", row.whole ? std::optional(row.whole->flip.mean) : std::nullopt);
+    expect_number("whole_flip_p99", row.whole ? std::optional(row.whole->flip.p99) : std::nullopt);
+    expect_number("whole_rmse", row.whole ? std::optional(row.whole->rmse) : std::nullopt);
+    expect_number("whole_psnr_db", row.whole ? std::optional(row.whole->psnr_db) : std::nullopt);
   }
+}
+
+TEST(points_csv, has_a_line_a_point) {
+  const Ledger ledger = full_ledger();
+  const auto lines = csv_cells(points_csv(ledger));
+  ASSERT_EQ(lines.size(), ledger.points.size() + 1);
+  for (std::size_t i = 0; i < ledger.points.size(); ++i) {
+    ASSERT_EQ(lines[i + 1].size(), lines[0].size());
+    const auto cell = [&](const std::string& name) {
+      const auto found = std::ranges::find(lines[0], name);
+      return found == lines[0].end() ? "no column " + name
+                                     : lines[i + 1][static_cast<std::size_t>(found - lines[0].begin())];
+    };
+    const LedgerPoint& point = ledger.points[i];
+    EXPECT_EQ(cell("settings"), settings_text(point.settings));
+    EXPECT_EQ(cell("exact"), point.is_exact ? "1" : "0");
+    EXPECT_EQ(cell("default"), point.measured.is_default ? "1" : "0");
+    EXPECT_EQ(cell("front"), point.measured.on_front ? "1" : "0");
+    EXPECT_EQ(std::strtod(cell("flip_mean").c_str(), nullptr), point.measured.flip->mean);
+    EXPECT_EQ(std::strtod(cell("median_ms").c_str(), nullptr), point.measured.ms.median_ms);
+    EXPECT_EQ(std::strtod(cell("ratio_high").c_str(), nullptr), point.measured.ratio_high);
+    EXPECT_EQ(std::strtod(cell("predicted_ms").c_str(), nullptr), point.predicted_ms);
+    EXPECT_EQ(std::strtod(cell("predicted_flip").c_str(), nullptr), point.predicted_flip);
+    EXPECT_EQ(cell("picture"), point.measured.picture);
+  }
+}
+
+TEST(settings_text, are_assignments_and_a_config) {
+  const std::vector<KnobValue> settings = {{"a.b", "c"}, {"d.e", "\"0.5\""}};
+  EXPECT_EQ(settings_text(settings), "a.b=c d.e=\"0.5\"");
+  EXPECT_EQ(settings_text({}), "default");
+  EXPECT_EQ(settings_config(settings), "{\n  \"a.b\": \"c\",\n  \"d.e\": \"\\\"0.5\\\"\"\n}\n");
+  EXPECT_EQ(settings_config({}), "{}\n");
 }
 
 TEST(ledger_table, has_a_line_a_row_and_marks_the_front) {

@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/accuracy/points/point_choice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace gloam {
+namespace {
+
+/// Errors below it are invisible and equally good: they end the logarithmic scale.
+constexpr double kLeastError = 1e-4;
+/// A neighbour's predicted error over that of the front's line.
+constexpr double kMostAboveFront = 1.1;
+
+double log_error(const Cost& cost) { return std::log(std::max(cost.error(), kLeastError)); }
+
+/// The measured points that no other one makes pointless, the fastest first.
+std::vector<const MeasuredCost*> measured_front(const std::vector<MeasuredCost>& measured) {
+  std::vector<const MeasuredCost*> points;
+  for (const MeasuredCost& point : measured) points.push_back(&point);
+  std::ranges::stable_sort(points, [](const MeasuredCost* a, const MeasuredCost* b) {
+    return a->cost.ratio != b->cost.ratio ? a->cost.ratio < b->cost.ratio : a->cost.error() < b->cost.error();
+  });
+  std::vector<const MeasuredCost*> front;
+  for (const MeasuredCost* point : points)
+    if (front.empty() || point->cost.error() < front.back()->cost.error()) front.push_back(point);
+  return front;
+}
+
+struct Segment {
+  const MeasuredCost& faster;
+  const MeasuredCost& slower;
+
+  [[nodiscard]] bool holds(double ratio) const { return ratio >= faster.cost.ratio && ratio < slower.cost.ratio; }
+  /// Logarithm of the error over that of the line between the ends; below 0: better than the line.
+  [[nodiscard]] double above_line(const Cost& cost) const {
+    const double length = std::log(slower.cost.ratio / faster.cost.ratio);
+    const double part = length > 0.0 ? std::log(cost.ratio / faster.cost.ratio) / length : 0.0;
+    return log_error(cost) - (log_error(faster.cost) + part * (log_error(slower.cost) - log_error(faster.cost)));
+  }
+};
+
+struct Proposal {
+  Changes changes;
+  double above_line = 0.0;
+};
+
+/// The best neighbour of the segment's ends that lies in the segment.
+std::optional<Proposal> best_neighbour(const CostModel& model, const std::vector<MeasuredCost>& measured,
+                                       const Segment& segment) {
+  std::optional<Proposal> best;
+  for (const MeasuredCost* end : {&segment.faster, &segment.slower}) {
+    for (const CostModel::VariedKnob& knob : model.knobs()) {
+      for (const CostModel::Option& option : knob.options) {
+        const Cost cost = model.predict_from(end->cost, end->changes, knob, option);
+        if (!segment.holds(cost.ratio)) continue;
+        const double above_line = segment.above_line(cost);
+        if (above_line > std::log(kMostAboveFront) || (best && above_line >= best->above_line)) continue;
+        Changes changes = changed(end->changes, knob, option);
+        if (std::ranges::find(measured, changes, &MeasuredCost::changes) != measured.end()) continue;
+        best = Proposal{std::move(changes), above_line};
+      }
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+std::vector<Changes> spread(const CostModel& model, const std::vector<Changes>& front, std::size_t count) {
+  if (front.size() <= count) return front;
+  std::vector<Changes> chosen;
+  if (count == 0) return chosen;
+  std::vector<double> way = {0.0};  // along the front up to each combination
+  for (std::size_t i = 1; i < front.size(); ++i) {
+    const Cost a = model.predict(front[i - 1]), b = model.predict(front[i]);
+    way.push_back(way.back() + std::hypot(std::log(b.ratio / a.ratio), log_error(b) - log_error(a)));
+  }
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double wanted = count > 1 ? way.back() * static_cast<double>(i) / static_cast<double>(count - 1) : 0.0;
+    // Leave a combination for each of the others.
+    while (next + (count - i) < front.size() && way[next] < wanted) ++next;
+    chosen.push_back(front[next++]);
+  }
+  return chosen;
+}
+
+std::optional<Changes> improve(const CostModel& model, const std::vector<MeasuredCost>& measured,
+                               Improvements& improvements) {
+  const std::vector<const MeasuredCost*> front = measured_front(measured);
+  std::optional<Proposal> best;
+  const MeasuredCost* begin = nullptr;
+  for (std::size_t i = 0; i + 1 < front.size(); ++i) {
+    std::optional<Proposal> proposal = best_neighbour(model, measured, {*front[i], *front[i + 1]});
+    if (!proposal) continue;
+    const std::size_t improved = improvements[front[i]->changes];
+    const std::size_t least = begin != nullptr ? improvements[begin->changes] : improved;
+    if (best && (improved > least || (improved == least && proposal->above_line >= best->above_line))) continue;
+    best = std::move(proposal);
+    begin = front[i];
+  }
+  if (!best) return std::nullopt;
+  ++improvements[begin->changes];
+  return std::move(best->changes);
+}
+
+}  // namespace gloam

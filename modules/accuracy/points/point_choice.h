@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "modules/accuracy/points/cost_model.h"
+
+namespace gloam {
+
+/// At most `count` of the combinations, from the first to the last, about equally far apart in the logarithms of
+/// predicted time and error. front: CostModel::front().
+[[nodiscard]] std::vector<Changes> spread(const CostModel& model, const std::vector<Changes>& front, std::size_t count);
+
+/// A combination that was measured.
+struct MeasuredCost {
+  Changes changes;
+  Cost cost;
+};
+
+/// How often each stretch of the front was chosen for an improvement, by its faster end.
+using Improvements = std::map<Changes, std::size_t>;
+
+/// The combination to measure next: a neighbour of the measured front, which differs from one of its points in one
+/// knob, and whose predicted error is at most 10 % above the line between the two points of the front beside it.
+/// Segments with the fewest improvements come first, then the greatest gain. None: no neighbour promises anything.
+[[nodiscard]] std::optional<Changes> improve(const CostModel& model, const std::vector<MeasuredCost>& measured,
+                                             Improvements& improvements);
+
+}  // namespace gloam
