@@ -11,7 +11,8 @@ from gltf_scene import GltfScene
 from program_case import CACHE, ProgramCase, main
 
 KNOB = "lights.culling"
-COST = ("cost", "builtin:plain", "--quick", "--size", "64x36", "--knobs", KNOB, "--set", "shadows.mode=off")
+COST = ("cost", "builtin:plain", "--quick", "--size", "64x36", "--knobs", KNOB, "--points", "0", "--set",
+        "shadows.mode=off")
 
 
 class CostHard(ProgramCase):
@@ -60,7 +61,8 @@ class CostHard(ProgramCase):
             self.expect(0, *common)
 
     def test_an_interrupted_run_leaves_whole_files_and_resumes(self):
-        command = ("cost", "builtin:plain", "--quick", "--size", "64x36", "--knobs", "lights.*", "--set", "shadows.mode=off", "--out", "cut")
+        command = ("cost", "builtin:plain", "--quick", "--size", "64x36", "--knobs", "lights.*", "--points", "0",
+                   "--set", "shadows.mode=off", "--out", "cut")
         with self.start(*command) as run:
             self.wait_for_rows(run, "cut", 2)
             run.send_signal(signal.SIGINT)
@@ -71,13 +73,14 @@ class CostHard(ProgramCase):
         self.assertIn(f"{len(rows)} of ", self.expect(0, *command).stdout, "every file that is there is whole")
 
     def test_a_full_disk_is_1_and_the_run_resumes(self):
-        mount = ("unshare", "-m", "sh", "-c", 'mkdir -p full && mount -t tmpfs -o size=96k none full && "$@"; code=$?; '
+        mount = ("unshare", "-m", "sh", "-c", 'mkdir -p full && mount -t tmpfs -o size=440k none full && "$@"; code=$?; '
                  'cp -r full kept; exit $code', "sh")
         probe = subprocess.run([*mount, "true"], cwd=self.folder, capture_output=True, check=False)
         if probe.returncode != 0:
             self.skipTest("a file system of a few bytes needs the right to mount")
         subprocess.run(["rm", "-r", self.folder / "kept"], check=True)
-        command = ("cost", "builtin:plain", "--quick", "--size", "160x90", "--knobs", "lights.*,lighting.*", "--set", "shadows.mode=off")
+        command = ("cost", "builtin:plain", "--quick", "--size", "160x90", "--knobs", "lights.*,lighting.*", "--points", "0",
+                   "--set", "shadows.mode=off")
         self.expect(1, *command, "--out", "full", prefix=mount, says="full/")
         self.assertFalse((self.folder / "kept/ledger.json").exists())
         self.assertFalse(list((self.folder / "kept").rglob("*.tmp*")), "no half file is left")
