@@ -14,6 +14,8 @@ namespace gloam {
 /// The best combination for each time and each error, the front, and how well the model predicted. Empty without
 /// points.
 [[nodiscard]] std::string budgets_section(const ReportData& data);
+/// The recommended combination, its picture beside that of the user's settings.
+[[nodiscard]] std::string recommendation(const ReportData& data);
 /// Values that give back time at a small error.
 [[nodiscard]] std::string savings_section(const ReportData& data);
 /// A plot and a table for each knob; knobs without effect and knobs that were not measured.
@@ -36,6 +38,15 @@ namespace gloam {
 /// An image that the page's script fills from the embedded pictures, in a link to the full picture; a text if there is
 /// no picture.
 [[nodiscard]] std::string picture_html(const ReportData& data, const std::string& name, std::string_view description);
+/// "12.3 ms (12.0–12.9)"
+[[nodiscard]] std::string point_time(const ReportData& data, const LedgerPoint& point);
+/// A list of the settings against the declared defaults. with_meaning: with the knobs' sentences.
+[[nodiscard]] std::string settings_list(const ReportData& data, const LedgerPoint& point, bool with_meaning);
+/// The settings as a file for --config, to copy or to download. id: of the element with its text. title: names the
+/// settings.
+[[nodiscard]] std::string settings_file(const LedgerPoint& point, const std::string& id, const std::string& title);
+/// A link that shows the point's picture beside that of the user's settings.
+[[nodiscard]] std::string compare_link(const ReportData& data, const LedgerPoint& point);
 /// "knob=value"; of a point, its settings_text()
 [[nodiscard]] std::string setting_of(const LedgerRow& row);
 
