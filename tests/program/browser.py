@@ -15,7 +15,7 @@ TIMEOUT_S = 60.0
 TAB = 9
 # Key: code of the key, and the text that it types.
 KEYS = {"Tab": (TAB, ""), "Enter": (13, "\r"), " ": (32, " "), "ArrowLeft": (37, ""), "ArrowUp": (38, ""), "ArrowRight": (39, ""),
-        "ArrowDown": (40, ""), "Home": (36, ""), "End": (35, "")}
+        "ArrowDown": (40, ""), "Home": (36, ""), "End": (35, ""), ".": (190, ".")}
 
 
 class Browser:

@@ -90,8 +90,7 @@ function startLook() {
     if (!link) return;
     if (link.dataset.left) choose(left, link.dataset.left);
     choose(right, link.dataset.right);
-    show();
-    byId('look-title').focus();
+    show();  // then the link moves the focus
   });
   const first = byId('look').dataset;
   if (first.left) choose(left, first.left);
@@ -188,8 +187,19 @@ function startCopying() {
   });
 }
 
+// Paper cannot unfold anything.
+function startPrinting() {
+  let folded = [];
+  addEventListener('beforeprint', () => {
+    folded = [...document.querySelectorAll('details:not([open])')];
+    for (const details of folded) details.open = true;
+  });
+  addEventListener('afterprint', () => { for (const details of folded) details.open = false; });
+}
+
 startLook();
 startBudget();
+startPrinting();
 startTable();
 startCopying();
 )js";

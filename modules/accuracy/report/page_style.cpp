@@ -130,11 +130,27 @@ dt { color: var(--soft); }
 dd { margin: 0; overflow-wrap: anywhere; }
 @media print {
   :root { --page: #fff; --text: #000; --soft: #444; --line: #bbb; --panel: #fff; --link: #000; --front: #000; --other: #888; }
-  nav, .skip, .filters, .pickers, #slider, label[for="slider"] { display: none; }
-  .card, .knob, figure, tr { break-inside: avoid; }
-  h2, h3, h4 { break-after: avoid; }
+  body { padding: 0; max-width: none; font-size: .8rem; }
+  nav, .skip, .filters, .pickers, .budget, #budget-answer, .do, #slider, label[for="slider"] { display: none; }
+  .card, .knob, figure, tr, svg, pre, .lead .pair, .compare, .errors { break-inside: avoid; }
+  .legend, .corner, .area, .area span, .bar { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
+  summary { list-style: none; }
+  summary::-webkit-details-marker { display: none; }
+  pre { white-space: pre-wrap; overflow-wrap: anywhere; }
+  .chart-and-table, .errors { flex-wrap: nowrap; }
+  .plot { flex: 1 1 48%; }
+  .values { flex: 1 1 52%; }
+  .values table { font-size: .6rem; }
+  .values th, .values td { padding: .15rem .25rem; }
+  .values td:last-child { min-width: 0; }
+  #heat-figure, #worst-figure { flex: 1 1 50%; }
+  .cards { grid-template-columns: 1fr 1fr; }
+  h2, h3, h4, h2 + p, h3 + p, summary { break-after: avoid; }
   .scroll { overflow: visible; }
-  #rows { font-size: .6rem; }
+  .compare { max-width: 30rem; }
+  #rows, #points { font-size: .55rem; }
+  #rows code { overflow-wrap: anywhere; }
+  #rows code, #rows th, #rows td { white-space: normal; }
   #rows th, #rows td { padding: .1rem .2rem; }
 }
 )css";
