@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: MIT
 """Uses the page report.html of `cost` in a browser: by keyboard, in both themes, on screens and paper, and by the rules of
 page_rules.py. Needs a Vulkan device and Chromium."""
+import csv
+import json
 import re
 import tempfile
 from pathlib import Path
@@ -193,6 +195,58 @@ class ReportPage(ProgramCase):
                          self.value("rows.tBodies[0].rows.length + ' of ' + rows.tBodies[0].rows.length + ' rows'"))
         first = self.value("document.querySelector('.lead').getBoundingClientRect().bottom")
         self.assertLess(first, SIZES[0][1], "the answer and its pictures stand on the first screen")
+
+    def test_shows_the_numbers_of_the_ledger(self):
+        folder = self.page.parent
+        ledger = json.loads((folder / "ledger.json").read_text(encoding="utf-8"))
+        heads = self.value("[...rows.tHead.rows[0].cells].map((cell) => cell.textContent)")
+        table = self.value("[...rows.tBodies[0].rows].map((row) => [...row.cells].map((cell) => [cell.textContent, cell.dataset.sort]))")
+        self.assertEqual(len(table), len(ledger["rows"]))
+        edges = 0
+        for cells, row in zip(table, ledger["rows"]):
+            cell = dict(zip(heads, cells))
+            self.assertEqual((cell["Knob"][0], cell["Value"][0].removesuffix(" (default)")), (row["knob"], row["value"]))
+            error = row["error"]
+            numbers = {"Ratio": row["ratio"], "Frame, ms": row["ms"]["median"], "FLIP mean": error.get("flip", {}).get("mean"),
+                       "FLIP p99": error.get("flip", {}).get("p99"), "FLIP at edges": error.get("edges", {}).get("flip", {}).get("mean"),
+                       "RMSE, cd/m²": error.get("rmse"), "Counted": error.get("counted", {}).get("value"),
+                       "Whole frame, FLIP": row.get("whole", {}).get("flip", {}).get("mean")}
+            edges += numbers["FLIP at edges"] is not None
+            for head, number in numbers.items():
+                text, sort = cell[head]
+                if number is None:
+                    self.assertEqual((text, sort), ("–", None), (head, row))
+                    continue
+                self.assertAlmostEqual(float(sort), number, delta=1e-8 * abs(number) + 1e-12)
+                if text != "< noise":
+                    self.assertAlmostEqual(float(re.match(r"[-+.\de]+", text).group()), number, delta=0.006 * abs(number) + 1e-9)
+        self.assertGreater(edges, 4, "errors at edges were measured")
+        with open(folder / "points.csv", encoding="utf-8", newline="") as file:
+            points = list(csv.DictReader(file))
+        shown = self.value("[...points.tBodies[0].rows].map((row) => [row.cells[0].textContent, Number(row.dataset.ms),"
+                           " Number(row.dataset.flip), JSON.parse(row.dataset.config)])")
+        self.assertEqual(len(shown), len(points))
+        for (setting, ms, flip, config), point, measured in zip(shown, points, ledger["points"]):
+            self.assertEqual((setting, config), (point["settings"], measured["settings"]))
+            self.assertAlmostEqual(ms, float(point["median_ms"]), delta=1e-8 * ms)
+            self.assertAlmostEqual(flip, float(point["flip_mean"]), delta=1e-8)
+        self.check_recommendation(points)
+
+    def check_recommendation(self, points):
+        """The first screen has the fastest point whose error is below 0.01 or that of the user's, or else below 0.03."""
+        users = next(float(point["flip_mean"]) for point in points if point["default"] == "1")
+        faster = [point for point in points if float(point["ratio_high"]) < 1.0]
+        right = [point for point in faster if float(point["flip_mean"]) < 0.01 or float(point["flip_mean"]) <= users] or \
+                [point for point in faster if float(point["flip_mean"]) < 0.03]
+        answer = self.value("document.querySelector('.answer').textContent")
+        if not right:
+            self.assertTrue(answer.startswith("Nothing."), answer)
+            return
+        best = min(right, key=lambda point: float(point["median_ms"]))
+        self.assertAlmostEqual(float(re.search(r"takes ([\d.]+) ", answer).group(1)), float(best["ratio"]), delta=0.006)
+        settings = self.value("[...document.querySelectorAll('.lead li')].map((item) => item.querySelector('code').textContent"
+                              " + '=' + item.querySelector('strong').textContent).join(' ')")
+        self.assertEqual(settings, best["settings"])
 
     def test_prints_without_controls_and_cuts(self):
         paper = (680, 960)  # pixels of a page of A4 or letter within its margins
