@@ -146,15 +146,6 @@ std::string folded_knobs(const ReportData& data) {
          list + "</ul></details>\n";
 }
 
-std::string skipped_knobs(const Ledger& ledger) {
-  if (ledger.skipped.empty()) return {};
-  std::string html = "<details><summary>Knobs that were not measured, because the scene does not call for them: " +
-                     std::to_string(ledger.skipped.size()) + "</summary>\n<ul>\n";
-  for (const SkippedKnob& skipped : ledger.skipped)
-    html += "<li><code>" + escaped(skipped.knob) + "</code>: " + escaped(skipped.reason) + "</li>\n";
-  return html + "</ul></details>\n";
-}
-
 }  // namespace
 
 std::string effects_section(const ReportData& data) {
@@ -177,7 +168,7 @@ std::string effects_section(const ReportData& data) {
       if (!knob.no_effect && module_of(knob.name) == module) html += knob_article(knob);
   }
   if (modules.empty()) html += "<p class=\"empty\">No measured knob changes anything in this scene.</p>\n";
-  return html + folded_knobs(data) + skipped_knobs(data.ledger) + "</section>\n";
+  return html + folded_knobs(data) + "</section>\n";
 }
 
 }  // namespace gloam

@@ -18,10 +18,12 @@ namespace gloam {
 [[nodiscard]] std::string recommendation(const ReportData& data);
 /// Values that give back time at a small error.
 [[nodiscard]] std::string savings_section(const ReportData& data);
-/// A plot and a table for each knob; knobs without effect and knobs that were not measured.
+/// A plot and a table for each knob; knobs without effect.
 [[nodiscard]] std::string effects_section(const ReportData& data);
 /// Two pictures under a slider, the error and its worst areas.
 [[nodiscard]] std::string look_section(const ReportData& data);
+/// Effects that take no part in the scene's frames, and why. Empty if all knobs were measured.
+[[nodiscard]] std::string called_section(const ReportData& data);
 /// What the other sections show of several cameras, and a table of each. Empty for one camera.
 [[nodiscard]] std::string cameras_section(const ReportData& data);
 /// All rows.

@@ -278,10 +278,13 @@ TEST(LedgerReport, folds_knobs_without_effect_and_names_skipped_ones) {
   std::vector<LedgerRow> rows = {value_row("a.x", "on", 1.0, 0.0), value_row("a.x", "off", 0.99, 0.0)};
   for (LedgerRow& row : rows) row.no_effect = true;
   Ledger ledger = ledger_of(rows);
-  ledger.skipped = {{"grass.lod", "no patch"}};
+  ledger.skipped = {{"grass.lod", "no patch"}, {"fog.radius", "no fog"}, {"grass.cast_distance", "no patch"}};
   const std::string html = ledger_report(ledger, {});
   EXPECT_THAT(html, HasSubstr("Knobs without effect in this scene: 1"));
-  EXPECT_THAT(html, HasSubstr("<code>grass.lod</code>: no patch"));
+  EXPECT_THAT(html, HasSubstr("<li>No patch\n<details><summary>Knobs: 2</summary><p><code>grass.lod</code>, "
+                              "<code>grass.cast_distance</code></p>"));
+  EXPECT_THAT(html, HasSubstr("<li>No fog\n<details><summary>Knobs: 1</summary>"));
+  EXPECT_THAT(html, HasSubstr("<a href=\"#called-for\">"));
   EXPECT_EQ(count_of(html, "<svg"), 0u);
 }
 
