@@ -182,7 +182,7 @@ class ReportPage(ProgramCase):
     def test_settings_are_copied_by_keys(self):
         self.focus("[data-copy]")
         self.browser.press("Enter")
-        self.browser.wait_until("document.querySelector('[data-copy]').textContent !== 'Copy'")
+        self.browser.wait_until("document.querySelector('[data-copy]').textContent !== 'Copy settings'")
         if self.value("document.querySelector('[data-copy]').textContent") != "Copied":  # no access to the clipboard
             text = self.value("document.getElementById(document.querySelector('[data-copy]').dataset.copy).textContent")
             self.assertEqual(self.value("getSelection().toString()").strip(), text.strip())
@@ -219,7 +219,8 @@ class ReportPage(ProgramCase):
                     continue
                 self.assertAlmostEqual(float(sort), number, delta=1e-8 * abs(number) + 1e-12)
                 if text != "< noise":
-                    self.assertAlmostEqual(float(re.match(r"[-+.\de]+", text).group()), number, delta=0.006 * abs(number) + 1e-9)
+                    rounding = 0.00501 if head == "Ratio" else 0.00501 * abs(number)  # two decimals, three significant digits
+                    self.assertAlmostEqual(float(re.match(r"[-+.\de]+", text).group()), number, delta=rounding)
         self.assertGreater(edges, 4, "errors at edges were measured")
         with open(folder / "points.csv", encoding="utf-8", newline="") as file:
             points = list(csv.DictReader(file))

@@ -87,8 +87,7 @@ std::string answer_card(const ReportData& data, const Answer& answer, const std:
   html += picture_html(data, row.picture, "The scene with " + setting_of(row));
   if (row.is_default) return html + "</li>\n";
   html += "<p>Against the defaults:</p>\n" + settings_list(data, *answer.point, false);
-  html += "<p class=\"do\">" + compare_link(data, *answer.point) + "</p>\n" +
-          settings_file(*answer.point, id, answer.question);
+  html += settings_file(data, *answer.point, id, answer.question);
   return html + "</li>\n";
 }
 

@@ -23,7 +23,7 @@ std::string row_notes(const LedgerRow& row) {
   std::string notes;
   const auto add = [&](const std::string& note) { notes += (notes.empty() ? "" : ", ") + note; };
   if (row.is_default) add("default");
-  if (row.on_front) add("on the front");
+  if (row.on_front) add("front");
   if (row.reference_kind == "brute force" && row.reference_name == setting_of(row)) add("exact");
   if (row.no_effect && !row.is_default) add("no effect");
   if (!row.wrong.empty()) add("wrong: " + row.wrong);
@@ -42,7 +42,8 @@ std::string value_row(const KnobResults& knob, const LedgerRow& row) {
     html += number_td(flip_error(row)) + number_td(row.flip ? std::optional(row.flip->p99) : std::nullopt);
     html += number_td(row.edges ? std::optional(row.edges->flip.mean) : std::nullopt);
     if (row.flip)
-      notes = std::string(visibility_words({*flip_error(row), row.flip->p99})) +
+      notes = (*flip_error(row) == 0.0 ? std::string("equal to the reference")
+                                       : std::string(visibility_words({*flip_error(row), row.flip->p99}))) +
               (row.below_noise ? ", below the reference’s noise" : "") + (notes.empty() ? "" : "; ") + notes;
   } else {
     html += "<td>" + escaped(error_text_of(row)) + "</td>";

@@ -55,14 +55,14 @@ img { display: block; max-width: 100%; }
 .and-worst { grid-template-columns: 1fr 1fr .56fr; }
 .worst img { image-rendering: pixelated; }
 #budgets h2 { margin-top: 1.25rem; }
-.do { display: flex; flex-wrap: wrap; gap: .25rem 1.25rem; justify-content: space-between; }
+.do { display: flex; flex-wrap: wrap; align-items: center; gap: .25rem 1.25rem; justify-content: space-between; }
 .chart-and-table { display: flex; flex-wrap: wrap; gap: 1rem; align-items: flex-start; }
 .plot { flex: 1 1 26rem; min-width: 0; max-width: 35rem; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: .92rem; }
 .values { flex: 1 1 24rem; min-width: 0; }
-.values table { width: 100%; }
-.values th, .values td { padding: .25rem .5rem; }
-.values td:last-child { min-width: 9rem; }
+.values table { width: 100%; font-size: .85rem; }
+.values th, .values td { padding: .25rem .4rem; }
+.values td:last-child { min-width: 7.5rem; }
 th, td { text-align: left; padding: .25rem .6rem; border-bottom: 1px solid var(--line); vertical-align: top; font-weight: normal; }
 thead th { font-weight: 600; }
 .number { text-align: right; white-space: nowrap; }

@@ -47,21 +47,20 @@ std::string settings_list(const ReportData& data, const LedgerPoint& point, bool
   return html + "</ul>\n";
 }
 
-std::string settings_file(const LedgerPoint& point, const std::string& id, const std::string& title) {
-  const std::string config = settings_config(point.settings);
-  const std::string label = escaped("the settings: " + title);
-  return "<p class=\"do\"><button type=\"button\" data-copy=\"" + id + "\" aria-label=\"Copy " + label +
-         "\">Copy</button> <a href=\"data:application/json," + uri_text(config) + "\" download=\"" + id +
-         ".json\" aria-label=\"Download " + label + "\">Download</a></p>\n<details><summary>The file for " +
-         "<code>--config</code></summary>\n<pre tabindex=\"0\" role=\"region\" aria-label=\"File of " + label +
-         "\"><code id=\"" + id + "\">" + escaped(config) + "</code></pre></details>\n";
-}
-
-std::string compare_link(const ReportData& data, const LedgerPoint& point) {
+std::string settings_file(const ReportData& data, const LedgerPoint& point, const std::string& id,
+                          const std::string& title) {
   const LedgerRow& row = point.measured;
   const LedgerRow* users = data.users == nullptr ? nullptr : &data.users->measured;
-  return look_link(row, users, "Compare under a slider",
-                   "aria-label=\"Compare under a slider: your settings and " + escaped(setting_of(row)) + "\"");
+  const std::string config = settings_config(point.settings);
+  const std::string label = escaped("settings: " + title);
+  return "<p class=\"do\">" +
+         look_link(row, users, "Compare under a slider",
+                   "aria-label=\"Compare under a slider: your settings and " + escaped(setting_of(row)) + "\"") +
+         " <button type=\"button\" data-copy=\"" + id + "\" aria-label=\"Copy " + label +
+         "\">Copy settings</button> <a href=\"data:application/json," + uri_text(config) + "\" download=\"" + id +
+         ".json\" aria-label=\"Download " + label + "\">Download settings</a></p>\n<details><summary>The file for " +
+         "<code>--config</code></summary>\n<pre tabindex=\"0\" role=\"region\" aria-label=\"File of " + label +
+         "\"><code id=\"" + id + "\">" + escaped(config) + "</code></pre></details>\n";
 }
 
 }  // namespace gloam

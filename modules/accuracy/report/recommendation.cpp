@@ -68,8 +68,7 @@ std::string recommendation(const ReportData& data) {
                      ", p99 " + number_text(row.flip->p99) +
                      (users.flip->mean > 0.0 ? " (now: " + number_text(users.flip->mean) + ")" : std::string())) +
           worst_places(data, row) + "</div>\n";
-  html += "<p class=\"do\">" + compare_link(data, *data.recommended) + "</p>\n";
-  return html + settings_file(*data.recommended, "recommended", "the recommendation") + "</div>\n";
+  return html + settings_file(data, *data.recommended, "recommended", "the recommendation") + "</div>\n";
 }
 
 }  // namespace gloam

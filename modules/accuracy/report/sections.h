@@ -44,11 +44,10 @@ namespace gloam {
 [[nodiscard]] std::string point_time(const ReportData& data, const LedgerPoint& point);
 /// A list of the settings against the declared defaults. with_meaning: with the knobs' sentences.
 [[nodiscard]] std::string settings_list(const ReportData& data, const LedgerPoint& point, bool with_meaning);
-/// The settings as a file for --config, to copy or to download. id: of the element with its text. title: names the
-/// settings.
-[[nodiscard]] std::string settings_file(const LedgerPoint& point, const std::string& id, const std::string& title);
-/// A link that shows the point's picture beside that of the user's settings.
-[[nodiscard]] std::string compare_link(const ReportData& data, const LedgerPoint& point);
+/// The settings as a file for --config, to copy or to download, and a link that shows the point's picture beside that
+/// of the user's settings. id: of the element with the file's text. title: names the settings.
+[[nodiscard]] std::string settings_file(const ReportData& data, const LedgerPoint& point, const std::string& id,
+                                        const std::string& title);
 /// "knob=value"; of a point, its settings_text()
 [[nodiscard]] std::string setting_of(const LedgerRow& row);
 
