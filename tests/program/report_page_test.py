@@ -93,6 +93,19 @@ class ReportPage(ProgramCase):
                         self.assertEqual(self.browser.messages, [])
                         self.assertEqual(self.browser.requests, [f"file://{self.page}"])
 
+    def test_the_example_of_the_documents_keeps_the_rules(self):
+        example = self.source.resolve() / "docs/example-report.html"
+        text = example.read_text(encoding="utf-8")
+        self.assertLess(len(text.encode()), 3_000_000)
+        shown = re.sub(r'<script type="application/json".*?</script>', "", text, flags=re.DOTALL)
+        self.assertNotRegex(shown, r"/(tmp|home|root|work|usr|mnt)/", "no paths of a machine")
+        self.assertIn("gloam cost builtin:", re.search(r'<code id="command">(.*?)</code>', shown).group(1))
+        for theme in ("light", "dark"):
+            self.browser.emulate(*SIZES[0], theme, motion="reduce")
+            self.browser.open(example)
+            self.assertEqual(page_rules.broken_rules(self.browser), {})
+            self.assertEqual((self.browser.messages, self.browser.requests), ([], [f"file://{example}"]))
+
     def test_the_rules_find_what_breaks_them(self):
         self.assertEqual(set(MUTATIONS), set(self.value(page_rules.RULES)) | {"names"}, "a mutation for each rule")
         for rule, mutations in MUTATIONS.items():
@@ -219,7 +232,8 @@ class ReportPage(ProgramCase):
                     continue
                 self.assertAlmostEqual(float(sort), number, delta=1e-8 * abs(number) + 1e-12)
                 if text != "< noise":
-                    rounding = 0.00501 if head == "Ratio" else 0.00501 * abs(number)  # two decimals, three significant digits
+                    # Two decimals; two or three significant digits.
+                    rounding = 0.00501 if head == "Ratio" else (0.0501 if abs(number) < 1e-4 else 0.00501) * abs(number)
                     self.assertAlmostEqual(float(re.match(r"[-+.\de]+", text).group()), number, delta=rounding)
         self.assertGreater(edges, 4, "errors at edges were measured")
         with open(folder / "points.csv", encoding="utf-8", newline="") as file:

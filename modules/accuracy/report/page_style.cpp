@@ -30,7 +30,7 @@ h2:focus-visible { outline: 3px solid var(--link); }
 .skip:focus { left: 1rem; top: .5rem; background: var(--page); padding: .5rem; }
 nav a { margin-right: 1rem; display: inline-block; }
 .meaning, .reference, .empty, .none { color: var(--soft); }
-.cards { list-style: none; margin: .75rem 0; padding: 0; display: grid; gap: 1rem;
+.cards { list-style: none; margin: .75rem 0; padding: 0; display: grid; gap: 1rem; align-items: start;
   grid-template-columns: repeat(auto-fill, minmax(min(22rem, 100%), 1fr)); }
 .card, .knob { border: 1px solid var(--line); border-radius: 6px; background: var(--panel); padding: .9rem 1rem; }
 .knob { margin: .75rem 0; }
