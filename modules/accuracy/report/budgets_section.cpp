@@ -147,7 +147,7 @@ std::string model_text(const Ledger& ledger) {
   };
   return "<p>How well the rows of single knobs predict combinations: measured time divided by predicted time is " +
          ratio(model.time) + "; for the error it is " + ratio(model.error) +
-         formatted(" (%u combinations).</p>\n", model.points);
+         formatted(" (%u combination%s).</p>\n", model.points, model.points == 1 ? "" : "s");
 }
 
 /// The plot of a knob, with the points as its values.

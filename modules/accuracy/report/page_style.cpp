@@ -115,6 +115,8 @@ select { max-width: 100%; }
 .scroll { overflow-x: auto; }
 #rows { width: 100%; font-size: .85rem; }
 #rows th, #rows td { padding: .25rem .4rem; }
+.unit { display: inline-block; white-space: normal; max-width: 8rem; text-align: left; }
+#called-for details { margin: .2rem 0 .5rem; }
 #rows thead th { white-space: normal; vertical-align: bottom; }
 #rows code { white-space: nowrap; }
 #rows thead button { border: 0; background: none; padding: 0; font-weight: 600; cursor: pointer; text-align: inherit; }

@@ -39,10 +39,12 @@ std::string single_values(const ReportData& data) {
 }
 
 std::string nothing_to_do(const ReportData& data) {
-  std::string html =
-      "<p class=\"answer\"><strong>Nothing.</strong> No measured combination is significantly faster than your "
-      "settings at an error below 0.03.</p>\n" +
-      single_values(data);
+  const std::string singles = single_values(data);
+  std::string html = "<p class=\"answer\"><strong>" +
+                     std::string(singles.empty() ? "Nothing." : "Single values only.") +
+                     "</strong> No measured combination is significantly faster than your settings at an error below "
+                     "0.03.</p>\n" +
+                     singles;
   if (data.users == nullptr) return html;
   const LedgerRow& users = data.users->measured;
   html +=

@@ -68,10 +68,10 @@ std::vector<TableColumn> table_columns(const Ledger& ledger) {
       {"RMSE, cd/m²", true, [](const ReportData&, const LedgerRow& row) { return number_cell(row.rmse); }}};
   if (std::ranges::any_of(ledger.rows, [](const LedgerRow& row) { return row.counted.has_value(); }))
     columns.push_back({"Counted", true, [](const ReportData&, const LedgerRow& row) {
-                         return row.counted
-                                    ? TableCell{number_text(row.counted->value) + " " + escaped(row.counted->unit),
-                                                row.counted->value, true}
-                                    : number_cell(std::nullopt);
+                         return row.counted ? TableCell{number_text(row.counted->value) + " <span class=\"unit\">" +
+                                                            escaped(row.counted->unit) + "</span>",
+                                                        row.counted->value, true}
+                                            : number_cell(std::nullopt);
                        }});
   if (std::ranges::any_of(ledger.rows, [](const LedgerRow& row) { return row.temporal.has_value(); }))
     columns.push_back({"Temporal", true, [](const ReportData&, const LedgerRow& row) {

@@ -163,6 +163,8 @@ TEST(LedgerReport, recommends_the_fastest_setting_whose_error_is_not_seen) {
   Ledger ledger = ledger_with_points();
   EXPECT_EQ(report_data(ledger, {}).recommended, nullptr) << "12 ms has an error of 0.05";
   EXPECT_THAT(ledger_report(ledger, {}), HasSubstr("<strong>Nothing.</strong> No measured combination"));
+  ledger.rows[0].flip = ErrorPair{0.005, 0.005};
+  EXPECT_THAT(ledger_report(ledger, {}), HasSubstr("<strong>Single values only.</strong> No measured combination"));
   ledger.points.insert(ledger.points.begin() + 1, point_at(20.0, 0.02, {{"shadows.filter", "pcf"}}));
   EXPECT_EQ(report_data(ledger, {}).recommended, &ledger.points[1]) << "below 0.03";
   ledger.points.insert(ledger.points.begin() + 2, point_at(30.0, 0.009, {{"shadows.filter", "pcss"}}));
