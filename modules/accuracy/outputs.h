@@ -36,6 +36,15 @@ struct CountedError {
   bool operator==(const CountedError&) const = default;
 };
 
+/// The error over the pixels near edges of the reference only (modules/accuracy/metrics/edge_error.h). It judges
+/// antialiasing: a mean over the whole picture hides the edges.
+struct EdgeError {
+  ErrorPair flip;        ///< 0…1
+  double psnr_db = 0.0;  ///< infinity: equal at all edges
+  double share = 0.0;    ///< of the picture's pixels that are near edges
+  bool operator==(const EdgeError&) const = default;
+};
+
 /// The difference from the whole-frame reference: the frame with every knob at its most exact value. Errors of
 /// different effects can be compared on this scale.
 struct WholeError {
@@ -73,6 +82,8 @@ struct LedgerRow {
   std::optional<double> rmse;      ///< linear light, cd/m², over all pixels and channels
   std::optional<double> rmse_p99;  ///< 99th percentile of the pixels' RMSE
   std::optional<double> psnr_db;   ///< infinity: identical pictures
+  /// None if the reference has no picture or no edges, for points, and in older ledgers.
+  std::optional<EdgeError> edges;
   /// Only in runs over several frames: linear light, cd/m², or displayed light, 0…1, if the reference is a picture
   /// only.
   std::optional<ErrorPair> temporal;

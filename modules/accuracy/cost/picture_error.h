@@ -27,7 +27,7 @@ class PictureJudge {
   /// The reference must have at least one side (linear light or picture).
   explicit PictureJudge(FramePictures reference);
 
-  /// Sets flip and psnr_db of the row if the reference has a picture, rmse and rmse_p99 if it has linear light.
+  /// Sets flip, psnr_db and edges of the row if the reference has a picture, rmse and rmse_p99 if it has linear light.
   /// `frame`: linear light and picture, of the reference's size. flip_map: gets the FLIP of each pixel if not null and
   /// the reference has a picture.
   [[nodiscard]] Status judge(const FramePictures& frame, LedgerRow& row, std::vector<float>* flip_map = nullptr) const;
@@ -36,6 +36,7 @@ class PictureJudge {
  private:
   FramePictures reference_;
   std::optional<FlipFeatures> features_;
+  std::vector<bool> near_edges_;  // of the reference's picture
 };
 
 /// Sets row.temporal from consecutive frames; the same number on both sides.

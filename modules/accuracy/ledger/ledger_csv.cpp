@@ -46,7 +46,8 @@ constexpr const char* kCsvColumns =
     "p99,rmse,"
     "rmse_p99,psnr_db,temporal_mean,temporal_p99,median_ms,p10_ms,p90_ms,cpu_ms,gpu_ms,module_cpu_ms,module_gpu_ms,"
     "ratio,gpu_bytes,front,ratio_low,ratio_high,pairs,wall_ms,picture,no_effect,"
-    "whole_flip_mean,whole_flip_p99,whole_rmse,whole_psnr_db,camera\n";
+    "whole_flip_mean,whole_flip_p99,whole_rmse,whole_psnr_db,edge_flip_mean,edge_flip_p99,edge_psnr_db,edge_share,"
+    "camera\n";
 
 constexpr const char* kPointColumns =
     "settings,default,exact,front,flip_mean,flip_p99,rmse,psnr_db,median_ms,p10_ms,p90_ms,wall_ms,cpu_ms,gpu_ms,ratio,"
@@ -70,7 +71,10 @@ std::string csv_rows(const std::vector<LedgerRow>& rows, const std::string& came
       return row.whole ? std::optional((*row.whole).*member) : std::nullopt;
     };
     line.pair(row.whole ? std::optional(row.whole->flip) : std::nullopt);
-    line.number(whole(&WholeError::rmse)).number(whole(&WholeError::psnr_db)).text(camera);
+    line.number(whole(&WholeError::rmse)).number(whole(&WholeError::psnr_db));
+    line.pair(row.edges ? std::optional(row.edges->flip) : std::nullopt);
+    line.number(row.edges ? std::optional(row.edges->psnr_db) : std::nullopt);
+    line.number(row.edges ? std::optional(row.edges->share) : std::nullopt).text(camera);
     text += line.finish();
   }
   return text;

@@ -30,6 +30,10 @@ Json errors_json(const LedgerRow& row) {
   if (row.rmse_p99) json["rmse_p99"] = *row.rmse_p99;
   if (row.psnr_db) json["psnr_db"] = decibels_json(*row.psnr_db);
   if (row.temporal) json["temporal"] = pair_json(*row.temporal);
+  if (row.edges)
+    json["edges"] = {{"flip", pair_json(row.edges->flip)},
+                     {"psnr_db", decibels_json(row.edges->psnr_db)},
+                     {"share", row.edges->share}};
   return json;
 }
 
@@ -44,6 +48,10 @@ void read_errors(const Json& json, LedgerRow& row) {
   if (json.contains("rmse_p99")) row.rmse_p99 = json["rmse_p99"].get<double>();
   if (json.contains("psnr_db")) row.psnr_db = decibels_of(json["psnr_db"]);
   if (json.contains("temporal")) row.temporal = pair_of(json["temporal"]);
+  if (json.contains("edges")) {
+    const Json& edges = json["edges"];
+    row.edges = EdgeError{pair_of(edges.at("flip")), decibels_of(edges.at("psnr_db")), edges.at("share").get<double>()};
+  }
 }
 
 Json whole_json(const WholeError& error) {

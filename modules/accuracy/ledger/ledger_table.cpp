@@ -10,14 +10,22 @@
 namespace gloam {
 namespace {
 
-constexpr std::size_t kColumns = 14;
+constexpr std::size_t kColumns = 15;
 using Line = std::array<std::string, kColumns>;
-const Line kTitles = {"",         "knob",  "value", "counted", "FLIP mean", "FLIP p99",       "RMSE",
+const Line kTitles = {"",         "knob",  "value", "counted", "FLIP mean", "FLIP p99",       "at edges", "RMSE",
                       "temporal", "whole", "ms",    "p10-p90", "ratio",     "module CPU+GPU", "MiB"};
-constexpr std::size_t kCountedColumn = 3;   // shown only if a row has a counted error
-constexpr std::size_t kTemporalColumn = 7;  // shown only if a row has a temporal error
-constexpr std::size_t kWholeColumn = 8;     // shown only if a row has an error against the whole frame
-constexpr std::size_t kTextColumns = 3;     // left-aligned
+constexpr std::size_t kTextColumns = 3;  // left-aligned
+
+/// A column that is shown only if a row has its error.
+struct OptionalColumn {
+  std::size_t column = 0;
+  bool (*has)(const LedgerRow& row) = nullptr;
+};
+constexpr std::array<OptionalColumn, 4> kOptionalColumns = {
+    {{3, [](const LedgerRow& row) { return row.counted.has_value(); }},
+     {6, [](const LedgerRow& row) { return row.edges.has_value(); }},
+     {8, [](const LedgerRow& row) { return row.temporal.has_value(); }},
+     {9, [](const LedgerRow& row) { return row.whole.has_value(); }}}};
 
 std::string error_text(const LedgerRow& row, const double* value) {
   if (value == nullptr) return "-";
@@ -40,6 +48,7 @@ Line line_of(const LedgerRow& row) {
           counted_text(row),
           error_text(row, row.flip ? &row.flip->mean : nullptr),
           error_text(row, row.flip ? &row.flip->p99 : nullptr),
+          row.edges ? error_text(row, &row.edges->flip.mean) : "",
           error_text(row, row.rmse ? &*row.rmse : nullptr),
           row.temporal ? formatted("%.6f", row.temporal->mean) : "",
           row.whole ? formatted("%.6f", row.whole->flip.mean) : "",
@@ -53,7 +62,8 @@ Line line_of(const LedgerRow& row) {
 std::string aligned(const Line& line, const std::array<std::size_t, kColumns>& widths) {
   std::string text;
   for (std::size_t i = 0; i < kColumns; ++i) {
-    if (widths[i] == 0 && (i == kCountedColumn || i == kTemporalColumn || i == kWholeColumn)) continue;
+    const bool optional = std::ranges::find(kOptionalColumns, i, &OptionalColumn::column) != kOptionalColumns.end();
+    if (optional && widths[i] == 0) continue;
     const std::string gap(widths[i] - line[i].size(), ' ');
     text += (i > 0 ? "  " : "") + (i < kTextColumns ? line[i] + gap : gap + line[i]);
   }
@@ -155,12 +165,8 @@ std::string ledger_table(const Ledger& ledger) {
   std::vector<Line> lines = {kTitles};
   for (const LedgerRow& row : ledger.rows)
     if (!changes_nothing(ledger, row.knob)) lines.push_back(line_of(row));
-  const bool counts = std::ranges::any_of(ledger.rows, [](const LedgerRow& row) { return row.counted.has_value(); });
-  if (!counts) lines.front()[kCountedColumn].clear();
-  const bool moves = std::ranges::any_of(ledger.rows, [](const LedgerRow& row) { return row.temporal.has_value(); });
-  if (!moves) lines.front()[kTemporalColumn].clear();
-  const bool whole = std::ranges::any_of(ledger.rows, [](const LedgerRow& row) { return row.whole.has_value(); });
-  if (!whole) lines.front()[kWholeColumn].clear();
+  for (const OptionalColumn& optional : kOptionalColumns)
+    if (std::ranges::none_of(ledger.rows, optional.has)) lines.front()[optional.column].clear();
   std::array<std::size_t, kColumns> widths{};
   for (const Line& line : lines) {
     for (std::size_t i = 0; i < kColumns; ++i) widths[i] = std::max(widths[i], line[i].size());
@@ -177,7 +183,8 @@ std::string ledger_table(const Ledger& ledger) {
   for (const SkippedKnob& skipped : ledger.skipped) text += skipped.knob + ": not measured: " + skipped.reason + "\n";
   return text +
          "* no other value of the knob is as cheap and as right; = the default's picture and time; ratio to the "
-         "default's time, with its 95 % interval; RMSE in cd/m²; whole: mean FLIP against the frame with every knob at "
+         "default's time, with its 95 % interval; at edges: mean FLIP of the pixels within two of an edge of the "
+         "reference; RMSE in cd/m²; whole: mean FLIP against the frame with every knob at "
          "its most exact value; module CPU+GPU: wall time of the knob's module "
          "alone\n";
 }

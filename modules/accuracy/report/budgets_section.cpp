@@ -1,9 +1,7 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <vector>
 
 #include "engine/core/text/formatted.h"
@@ -21,21 +19,6 @@ struct Answer {
   std::string question;
   const LedgerPoint* point = nullptr;
 };
-
-double users_ms(const Ledger& ledger) {
-  for (const LedgerPoint& point : ledger.points)
-    if (point.measured.is_default) return point.measured.ms.median_ms;
-  return 0.0;
-}
-
-/// "12.3 ms (12.0–12.9)"
-std::string point_time(const Ledger& ledger, const LedgerPoint& point) {
-  const LedgerRow& row = point.measured;
-  if (row.is_default) return ms_text(row.ms.median_ms);
-  const double users = users_ms(ledger);
-  return ms_text(row.ms.median_ms) + " (" + number_text(users * row.ratio_low) + "–" +
-         number_text(users * row.ratio_high) + ")";
-}
 
 /// The point with the least error among those within a time; of equal ones, the fastest. Null: none is as fast.
 const LedgerPoint* best_within(const Ledger& ledger, double budget_ms) {
@@ -91,53 +74,18 @@ std::string unmet_budgets(const Ledger& ledger) {
          ms_text(ledger.points.front().measured.ms.median_ms) + ".</p>\n";
 }
 
-/// The settings against the declared defaults.
-std::string settings_list(const ReportData& data, const LedgerPoint& point) {
-  if (point.settings.empty()) return "<p>Nothing: all knobs are at their defaults.</p>\n";
-  std::string html = "<ul>\n";
-  for (const KnobValue& setting : point.settings) {
-    const auto known = std::ranges::find(data.meanings, setting.knob, &KnobMeaning::knob);
-    const bool has_default = known != data.meanings.end() && !known->default_value.empty();
-    const std::string from = has_default ? known->default_value + " → " : std::string();
-    html += "<li><code>" + escaped(setting.knob) + "</code> " + escaped(from) + "<strong>" + escaped(setting.value) +
-            "</strong></li>\n";
-  }
-  return html + "</ul>\n";
-}
-
-/// Percent-encoded, for a data: URI.
-std::string uri_text(std::string_view text) {
-  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.";
-  std::string encoded;
-  for (const char c : text)
-    encoded += kPlain.find(c) != std::string_view::npos ? std::string(1, c)
-                                                        : formatted("%%%02X", static_cast<unsigned char>(c));
-  return encoded;
-}
-
-std::string config_html(const LedgerPoint& point, const std::string& id) {
-  const std::string config = settings_config(point.settings);
-  return "<pre tabindex=\"0\" role=\"region\" aria-label=\"Settings as a file for --config\"><code id=\"" + id + "\">" +
-         escaped(config) + "</code></pre>\n<p class=\"do\"><button type=\"button\" data-copy=\"" + id +
-         "\">Copy</button> <a href=\"data:application/json," + uri_text(config) + "\" download=\"" + id +
-         ".json\">Download for <code>--config</code></a></p>\n";
-}
-
-const LedgerRow* users_row_of(const Ledger& ledger) {
-  for (const LedgerPoint& point : ledger.points)
-    if (point.measured.is_default) return &point.measured;
-  return nullptr;
-}
-
 std::string answer_card(const ReportData& data, const Answer& answer, const std::string& id) {
   const LedgerRow& row = answer.point->measured;
-  std::string html = "<li class=\"card setting\">\n<h4>" + escaped(answer.question) +
-                     "</h4>\n<p><strong class=\"gain\">" + point_time(data.ledger, *answer.point) + "</strong>";
-  html += row.is_default ? std::string(": your own settings") : ", " + ratio_text(row) + " of your settings’ time";
-  html += ".</p>\n<p>Error " + escaped(error_text_of(row)) + ".</p>\n";
+  std::string html = "<li class=\"card setting\">\n<h4>" + escaped(answer.question) + "</h4>\n<p>";
+  html += row.is_default ? "<strong class=\"gain\">Your settings</strong>: " + ms_text(row.ms.median_ms)
+                         : "<strong class=\"gain\">" + ratio_text(row) +
+                               "</strong> of your time: " + point_time(data, *answer.point);
+  html += ".</p>\n<p>" + escaped(sentence(error_words(row))) + ".</p>\n";
+  if (answer.point == data.recommended) return html + "<p>The settings at the top of this page.</p>\n</li>\n";
   html += picture_html(data, row.picture, "The scene with " + setting_of(row));
-  html += "<p>Against the defaults:</p>\n" + settings_list(data, *answer.point) + config_html(*answer.point, id);
-  html += "<p>" + look_link(row, users_row_of(data.ledger), "Compare with your settings under a slider") + "</p>\n";
+  if (row.is_default) return html + "</li>\n";
+  html += "<p>Against the defaults:</p>\n" + settings_list(data, *answer.point, false);
+  html += settings_file(data, *answer.point, id, answer.question);
   return html + "</li>\n";
 }
 
@@ -155,24 +103,38 @@ std::string point_notes(const LedgerPoint& point) {
   return notes;
 }
 
+std::string point_row(const ReportData& data, const LedgerPoint& point) {
+  const LedgerRow& row = point.measured;
+  const LedgerRow* users = data.users == nullptr ? nullptr : &data.users->measured;
+  return formatted("<tr data-ms=\"%.9g\" data-flip=\"%.9g\" data-now=\"%d\" data-config=\"", row.ms.median_ms,
+                   row.flip->mean, row.is_default ? 1 : 0) +
+         escaped(settings_config(point.settings)) + "\"><th scope=\"row\">" +
+         look_link(row, users, "<code>" + escaped(setting_of(row)) + "</code>") + "</th><td class=\"number\">" +
+         ratio_text(row) + "</td><td class=\"number\">" + ms_text(row.ms.median_ms) + "</td><td class=\"number\">" +
+         ms_text(point.predicted_ms) + "</td><td class=\"number\">" + number_text(row.flip->mean) +
+         "</td><td class=\"number\">" + number_text(point.predicted_flip) + "</td><td>" + point_notes(point) +
+         "</td></tr>\n";
+}
+
 std::string points_list(const ReportData& data) {
-  std::string html =
-      "<details><summary>All measured combinations: " + std::to_string(data.ledger.points.size()) +
-      "</summary>\n<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"All measured "
-      "combinations\"><table "
-      "class=\"points\"><thead><tr><th scope=\"col\">Setting</th><th scope=\"col\" class=\"number\">Time</th><th "
-      "scope=\"col\" class=\"number\">predicted</th><th scope=\"col\" class=\"number\">Error</th><th scope=\"col\" "
-      "class=\"number\">predicted</th><th scope=\"col\">Notes</th></tr></thead><tbody>\n";
-  for (const LedgerPoint& point : data.ledger.points) {
-    const LedgerRow& row = point.measured;
-    html += "<tr><th scope=\"row\">" +
-            look_link(row, users_row_of(data.ledger), "<code>" + escaped(setting_of(row)) + "</code>") +
-            "</th><td class=\"number\">" + point_time(data.ledger, point) + "</td><td class=\"number\">" +
-            ms_text(point.predicted_ms) + "</td><td class=\"number\">" + number_text(row.flip->mean) +
-            "</td><td class=\"number\">" + number_text(point.predicted_flip) + "</td><td>" + point_notes(point) +
-            "</td></tr>\n";
-  }
+  std::string html = "<details><summary>All measured combinations: " + std::to_string(data.ledger.points.size()) +
+                     "</summary>\n<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"All measured "
+                     "combinations\"><table id=\"points\"><thead><tr><th scope=\"col\">Setting</th>";
+  for (const char* title : {"Ratio", "Time", "predicted", "Error", "predicted"})
+    html += "<th scope=\"col\" class=\"number\">" + std::string(title) + "</th>";
+  html += "<th scope=\"col\">Notes</th></tr></thead><tbody>\n";
+  for (const LedgerPoint& point : data.ledger.points) html += point_row(data, point);
   return html + "</tbody></table></div></details>\n";
+}
+
+/// The script answers for the time that is typed here, from the table of all points.
+std::string budget_choice(const Ledger& ledger) {
+  const double fastest = ledger.points.front().measured.ms.median_ms;
+  return formatted(
+      "<p class=\"budget\" hidden><label for=\"budget\">Milliseconds that a frame may take</label> <input "
+      "type=\"number\" id=\"budget\" min=\"0\" step=\"any\" value=\"%g\"></p>\n<p id=\"budget-answer\" "
+      "role=\"status\"></p>\n",
+      fastest <= 33.0 ? 33.0 : std::ceil(fastest));
 }
 
 std::string model_text(const Ledger& ledger) {
@@ -183,13 +145,14 @@ std::string model_text(const Ledger& ledger) {
   };
   return "<p>How well the rows of single knobs predict combinations: measured time divided by predicted time is " +
          ratio(model.time) + "; for the error it is " + ratio(model.error) +
-         formatted(" (%u combinations).</p>\n", model.points);
+         formatted(" (%u combination%s).</p>\n", model.points, model.points == 1 ? "" : "s");
 }
 
 /// The plot of a knob, with the points as its values.
-std::string front_plot(const Ledger& ledger) {
-  KnobResults all = {.name = "whole settings", .standard = users_row_of(ledger)};
-  for (const LedgerPoint& point : ledger.points) all.rows.push_back(&point.measured);
+std::string front_plot(const ReportData& data) {
+  KnobResults all = {.name = "whole settings"};
+  if (data.users != nullptr) all.standard = &data.users->measured;
+  for (const LedgerPoint& point : data.ledger.points) all.rows.push_back(&point.measured);
   return error_plot(all);
 }
 
@@ -199,20 +162,25 @@ std::string budgets_section(const ReportData& data) {
   const Ledger& ledger = data.ledger;
   if (ledger.points.empty()) return {};
   std::string html =
-      "<section id=\"budgets\" aria-labelledby=\"budgets-title\">\n<h2 id=\"budgets-title\">What to turn down</h2>\n"
-      "<p>The best of the measured combinations for each time. Errors are mean FLIP against the whole frame with every "
-      "knob at its most exact value: below 0.01 nobody sees it side by side, 0.03 is seen when flipping between the "
-      "pictures, 0.1 is seen at once.</p>\n";
-  html += unmet_budgets(ledger) + answer_cards(data, budget_answers(ledger), "budget");
+      "<section id=\"budgets\" aria-labelledby=\"budgets-title\">\n<h2 id=\"budgets-title\">What to turn down</h2>\n" +
+      recommendation(data);
+  html +=
+      "<p class=\"keys\">The error is mean FLIP, 0 to 1, against the exact frame: the same techniques with every knob "
+      "at "
+      "its most exact value. Below 0.01 nobody sees it side by side, 0.03 is seen when flipping between the pictures, "
+      "0.1 is seen at once. A small mean can hide bad places: p99 is the error that the worst hundredth of the pixels "
+      "exceeds. <a href=\"#effects\">Each effect</a> has the errors against traced light.</p>\n";
+  html += "<h3>For a time</h3>\n" + budget_choice(ledger) + unmet_budgets(ledger) +
+          answer_cards(data, budget_answers(ledger), "budget");
   const std::vector<Answer> cheapest = error_answers(ledger);
-  html += "<h3>The cheapest setting below an error</h3>\n";
+  html += "<h3>The fastest below an error</h3>\n";
   html += cheapest.empty() ? "<p>No measured setting has an error below 0.03.</p>\n"
                            : answer_cards(data, cheapest, "error");
   html +=
-      "<h3>The front</h3>\n<p class=\"keys\">Error against time of whole settings. A square surrounds the default; "
-      "a diamond is equal to the exact frame; blue points are on the front. A point shows its picture beside the "
-      "default’s.</p>\n";
-  html += "<div class=\"chart-and-table\">" + front_plot(ledger) + "</div>\n" + model_text(ledger) + points_list(data);
+      "<h3>The front</h3>\n<p class=\"keys\">Error against time of whole settings. A square surrounds your settings; "
+      "a diamond is equal to the exact frame; blue points are on the front. A point shows its picture beside "
+      "yours.</p>\n";
+  html += "<div class=\"chart-and-table\">" + front_plot(data) + "</div>\n" + model_text(ledger) + points_list(data);
   return html + "</section>\n";
 }
 

@@ -14,7 +14,8 @@ std::string camera_name(const CameraRows& camera) {
 
 std::string camera_table(const CameraRows& camera) {
   std::string html =
-      "<table><thead><tr><th scope=\"col\">Value</th><th scope=\"col\">Error</th><th scope=\"col\">Time</th><th "
+      "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"" + escaped(camera_name(camera)) +
+      "\"><table><thead><tr><th scope=\"col\">Value</th><th scope=\"col\">Error</th><th scope=\"col\">Time</th><th "
       "scope=\"col\">Of the default's time</th></tr></thead><tbody>\n";
   for (const LedgerRow& row : camera.rows) {
     if (row.no_effect && !row.is_default) continue;
@@ -22,7 +23,7 @@ std::string camera_table(const CameraRows& camera) {
             escaped(error_text_of(row)) + "</td><td>" + ms_text(row.ms.median_ms) + "</td><td>" + ratio_text(row) +
             "</td></tr>\n";
   }
-  return html + "</tbody></table>\n";
+  return html + "</tbody></table></div>\n";
 }
 
 }  // namespace

@@ -1,36 +1,90 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <vector>
 
+#include "engine/core/text/formatted.h"
 #include "modules/accuracy/report/html_text.h"
 #include "modules/accuracy/report/sections.h"
 
 namespace gloam {
 namespace {
 
+constexpr double kVisibleGain_db = 1.0;  // smaller differences at edges are not told
+
+bool shows_flip(const KnobResults& knob) {
+  return std::ranges::any_of(knob.rows, [](const LedgerRow* row) { return row->flip && !row->counted; });
+}
+
 /// Marks of a row in words.
 std::string row_notes(const LedgerRow& row) {
   std::string notes;
   const auto add = [&](const std::string& note) { notes += (notes.empty() ? "" : ", ") + note; };
   if (row.is_default) add("default");
-  if (row.on_front) add("on the front");
+  if (row.on_front) add("front");
   if (row.reference_kind == "brute force" && row.reference_name == setting_of(row)) add("exact");
   if (row.no_effect && !row.is_default) add("no effect");
   if (!row.wrong.empty()) add("wrong: " + row.wrong);
   return notes;
 }
 
-std::string knob_table(const KnobResults& knob) {
-  std::string html =
-      "<table class=\"values\"><thead><tr><th scope=\"col\">Value</th><th scope=\"col\">Time, ratio</th>"
-      "<th scope=\"col\">Error</th><th scope=\"col\">Notes</th></tr></thead><tbody>\n";
-  for (const LedgerRow* row : knob.rows) {
-    html += "<tr><th scope=\"row\">" + look_link(*row, knob.standard, escaped(row->value)) + "</th><td>" +
-            ratio_text(*row) + "</td><td>" + escaped(error_text_of(*row)) + "</td><td>" + escaped(row_notes(*row)) +
-            "</td></tr>\n";
+std::string number_td(const std::optional<double>& value) {
+  return "<td class=\"number\">" + (value ? number_text(*value) : std::string("–")) + "</td>";
+}
+
+std::string value_row(const KnobResults& knob, const LedgerRow& row) {
+  std::string html = "<tr><th scope=\"row\">" + look_link(row, knob.standard, escaped(row.value)) +
+                     "</th><td class=\"number\">" + ratio_text(row) + "</td>";
+  std::string notes = row_notes(row);
+  if (shows_flip(knob)) {
+    html += number_td(flip_error(row)) + number_td(row.flip ? std::optional(row.flip->p99) : std::nullopt);
+    html += number_td(row.edges ? std::optional(row.edges->flip.mean) : std::nullopt);
+    if (row.flip)
+      notes = (*flip_error(row) == 0.0 ? std::string("equal to the reference")
+                                       : std::string(visibility_words({*flip_error(row), row.flip->p99}))) +
+              (row.below_noise ? ", below the reference’s noise" : "") + (notes.empty() ? "" : "; ") + notes;
+  } else {
+    html += "<td>" + escaped(error_text_of(row)) + "</td>";
   }
-  return html + "</tbody></table>\n";
+  return html + "<td>" + escaped(notes) + "</td></tr>\n";
+}
+
+/// The region scrolls on narrow screens.
+std::string knob_table(const KnobResults& knob) {
+  std::string html = "<div class=\"scroll values\" tabindex=\"0\" role=\"region\" aria-label=\"Values of " +
+                     escaped(knob.name) + "\"><table><thead><tr>";
+  html += "<th scope=\"col\">Value</th><th scope=\"col\" class=\"number\">Ratio</th>";
+  if (shows_flip(knob))
+    for (const char* title : {"FLIP", "p99", "at edges"})
+      html += "<th scope=\"col\" class=\"number\">" + std::string(title) + "</th>";
+  else
+    html += "<th scope=\"col\">Error</th>";
+  html += "<th scope=\"col\">Notes</th></tr></thead><tbody>\n";
+  for (const LedgerRow* row : knob.rows) html += value_row(knob, *row);
+  return html + "</tbody></table></div>\n";
+}
+
+/// The value that is best near edges, for antialiasing, and if the mean over the picture prefers another one.
+std::string edge_verdict(const KnobResults& knob) {
+  const LedgerRow* by_mean = nullptr;
+  const LedgerRow* by_edges = nullptr;
+  for (const LedgerRow* row : knob.rows) {
+    if (!row->flip || !row->edges || row->counted || !row->wrong.empty()) continue;
+    if (by_mean == nullptr || row->flip->mean < by_mean->flip->mean) by_mean = row;
+    if (by_edges == nullptr || row->edges->psnr_db > by_edges->edges->psnr_db) by_edges = row;
+  }
+  if (by_edges == nullptr || (by_edges == by_mean && by_edges->reference_kind != "accumulated")) return {};
+  const LedgerRow& other = by_edges != by_mean || knob.standard == nullptr ? *by_mean : *knob.standard;
+  if (&other == by_edges || !other.edges) return {};
+  const double gain_db = by_edges->edges->psnr_db - other.edges->psnr_db;
+  if (!std::isfinite(gain_db) || gain_db < kVisibleGain_db) return {};
+  return formatted("<p>At edges, %.0f %% of the picture, <code>", 100.0 * by_edges->edges->share) +
+         escaped(by_edges->value) + "</code> is nearer to the reference than <code>" + escaped(other.value) +
+         formatted("</code> by %.1f dB (PSNR); FLIP at edges is ", gain_db) + number_text(by_edges->edges->flip.mean) +
+         " (p99 " + number_text(by_edges->edges->flip.p99) + ") and " + number_text(other.edges->flip.mean) + " (p99 " +
+         number_text(other.edges->flip.p99) + ").</p>\n";
 }
 
 /// What the knob's cheapest right value would give back.
@@ -49,12 +103,12 @@ std::string knob_gain(const KnobResults& knob) {
 std::string knob_article(const KnobResults& knob) {
   std::string html = "<article class=\"knob\">\n<h4><code>" + escaped(knob.name) + "</code></h4>\n";
   if (!knob.meaning.empty()) html += "<p class=\"meaning\">" + escaped(knob.meaning) + "</p>\n";
-  html += knob_gain(knob);
+  html += knob_gain(knob) + edge_verdict(knob);
   const LedgerRow& first = *knob.rows.front();
   html += "<p class=\"reference\">" +
           (first.reference_kind.empty()
                ? "No reference: " + escaped(no_reference_text(first)) + "."
-               : "Reference: " + escaped(first.reference_kind + ", " + first.reference_name) +
+               : "Reference: " + escaped(reference_text(first)) +
                      (first.reference_noise > 0.0 ? "; its own noise is " + number_text(first.reference_noise) : "") +
                      ".") +
           "</p>\n";
@@ -68,6 +122,7 @@ std::string module_heading(const ReportData& data, std::string_view module) {
   for (const KnobResults& knob : data.knobs) {
     if (knob.standard == nullptr || module_of(knob.name) != module) continue;
     const LedgerRow& row = *knob.standard;
+    if (row.module_cpu_ms + row.module_gpu_ms == 0.0) return html;
     return html + "<p>At the default of its knobs: " + ms_text(row.module_cpu_ms) +
            " in its systems (all threads) and " + ms_text(row.module_gpu_ms) +
            " in its passes, as clocks on the wall show them, in a frame of " + ms_text(row.ms.median_ms) + ".</p>\n";
@@ -92,15 +147,6 @@ std::string folded_knobs(const ReportData& data) {
          list + "</ul></details>\n";
 }
 
-std::string skipped_knobs(const Ledger& ledger) {
-  if (ledger.skipped.empty()) return {};
-  std::string html = "<details><summary>Knobs that were not measured, because the scene does not call for them: " +
-                     std::to_string(ledger.skipped.size()) + "</summary>\n<ul>\n";
-  for (const SkippedKnob& skipped : ledger.skipped)
-    html += "<li><code>" + escaped(skipped.knob) + "</code>: " + escaped(skipped.reason) + "</li>\n";
-  return html + "</ul></details>\n";
-}
-
 }  // namespace
 
 std::string effects_section(const ReportData& data) {
@@ -111,7 +157,8 @@ std::string effects_section(const ReportData& data) {
       "points are "
       "on the front, joined by a line: no other value is as cheap and as right; a cross is wrong. Whiskers are 95 % "
       "intervals of the time. Dashed lines are the bounds 0.01, 0.03 and 0.1. A point shows its picture beside the "
-      "default’s.</p>\n";
+      "default’s. In the tables: p99 is the 99th percentile over the pixels; at edges is mean FLIP over the pixels "
+      "within two of an edge of the reference, which a mean over the picture hides.</p>\n";
   std::vector<std::string_view> modules;  // in the order of their first knobs
   for (const KnobResults& knob : data.knobs)
     if (!knob.no_effect && std::ranges::find(modules, module_of(knob.name)) == modules.end())
@@ -122,7 +169,7 @@ std::string effects_section(const ReportData& data) {
       if (!knob.no_effect && module_of(knob.name) == module) html += knob_article(knob);
   }
   if (modules.empty()) html += "<p class=\"empty\">No measured knob changes anything in this scene.</p>\n";
-  return html + folded_knobs(data) + skipped_knobs(data.ledger) + "</section>\n";
+  return html + folded_knobs(data) + "</section>\n";
 }
 
 }  // namespace gloam

@@ -188,11 +188,13 @@ std::string plot_points(const KnobResults& knob, std::vector<PlotPoint> points) 
   for (const PlotPoint& point : points) names.keep_free(point);
   for (const PlotPoint& point : points) {
     const LedgerRow& row = *point.row;
-    const std::string label = row.value + (row.is_default && row.value != "default" ? " (default)" : "") + ": time " +
-                              ratio_text(row) + ", error " + error_text_of(row);
+    const std::string name = plot_name(row);
+    std::string label = row.value + (row.is_default && row.value != "default" ? " (default)" : "");
+    if (name != row.value && !name.empty()) label = name + ": " + label;  // begins with the visible text
+    label += ": time " + ratio_text(row) + ", error " + error_text_of(row);
     const std::string content = "<title>" + escaped(label) + "</title>" +
                                 plot_line(point.low_x, point.y, point.high_x, point.y, "whisker") + point_mark(point) +
-                                names.place(point, plot_name(row));
+                                names.place(point, name);
     svg += look_link(row, knob.standard, content, "aria-label=\"" + escaped(label) + "\"") + "\n";
   }
   return svg;

@@ -9,7 +9,7 @@ std::string setting_of(const LedgerRow& row) { return row.knob.empty() ? row.val
 
 std::string look_link(const LedgerRow& row, const LedgerRow* before, std::string_view content,
                       std::string_view attributes) {
-  std::string html = "<a href=\"#look\" data-right=\"" + escaped(setting_of(row)) + "\"";
+  std::string html = "<a href=\"#look-title\" data-right=\"" + escaped(setting_of(row)) + "\"";
   if (before != nullptr) html += " data-left=\"" + escaped(setting_of(*before)) + "\"";
   if (!attributes.empty()) html.append(" ").append(attributes);
   return html.append(">").append(content).append("</a>");

@@ -55,7 +55,9 @@ std::string base64(std::string_view bytes) {
 std::string ratio_text(const LedgerRow& row) {
   if (row.is_default) return "1";
   const double width = row.ratio_high - row.ratio_low;
-  const int digits = width > 0.0 && width < 0.01 ? 3 : 2;
+  const auto reads_as_one = [](double bound) { return bound != 1.0 && formatted("%.2f", bound) == "1.00"; };
+  const bool fine = (width > 0.0 && width < 0.01) || reads_as_one(row.ratio_low) || reads_as_one(row.ratio_high);
+  const int digits = fine ? 3 : 2;
   return formatted("%.*f (%.*f–%.*f)", digits, row.ratio, digits, row.ratio_low, digits, row.ratio_high);
 }
 
@@ -74,10 +76,10 @@ std::optional<double> flip_error(const LedgerRow& row) {
   return std::max(row.flip->mean, row.reference_noise);
 }
 
-std::string_view visibility_words(double flip) {
-  if (flip < 0.01) return "nobody sees it side by side";
-  if (flip < 0.03) return "seen at most when flipping between the pictures";
-  if (flip < 0.1) return "seen when flipping between the pictures";
+std::string_view visibility_words(const ErrorPair& flip) {
+  if (flip.mean < 0.01) return flip.p99 < 0.1 ? "nobody sees it side by side" : "seen only at its worst places";
+  if (flip.mean < 0.03) return "seen at most when flipping between the pictures";
+  if (flip.mean < 0.1) return "seen when flipping between the pictures";
   return "seen at once";
 }
 
@@ -90,7 +92,28 @@ std::string error_text_of(const LedgerRow& row) {
   if (!row.flip) return number_text(*error) + " cd/m² RMSE" + (row.below_noise ? ", at most (noise)" : "");
   if (*error == 0.0) return "0 FLIP: equal to the reference";
   return number_text(*error) + (row.below_noise ? " FLIP at most (noise): " : " FLIP: ") +
-         std::string(visibility_words(*error));
+         std::string(visibility_words({*error, row.flip->p99}));
+}
+
+std::string error_words(const LedgerRow& row) {
+  const std::optional<double> error = row.error();
+  if (!error || row.counted || !row.flip) return "error " + error_text_of(row);
+  if (*error == 0.0)
+    return std::string("equal to the ") + (row.reference_kind == kWholeFrameKind ? "exact frame" : "reference") +
+           " (error 0)";
+  return std::string(visibility_words({*error, row.flip->p99})) + " (error " + number_text(*error) + " FLIP" +
+         (row.below_noise ? " at most, by the reference’s noise" : "") + ", p99 " + number_text(row.flip->p99) + ")";
+}
+
+std::string sentence(std::string_view text) {
+  std::string result(text);
+  if (!result.empty() && result[0] >= 'a' && result[0] <= 'z') result[0] = static_cast<char>(result[0] - 'a' + 'A');
+  return result;
+}
+
+std::string reference_text(const LedgerRow& row) {
+  const bool named = row.reference_name.find(row.reference_kind) != std::string::npos;
+  return named ? row.reference_name : row.reference_kind + ", " + row.reference_name;
 }
 
 std::string_view module_of(std::string_view knob) { return knob.substr(0, knob.find('.')); }

@@ -19,7 +19,8 @@ namespace gloam {
 /// Base64 (RFC 4648, section 4) of the bytes.
 [[nodiscard]] std::string base64(std::string_view bytes);
 
-/// "0.71 (0.70–0.73)", to the digit that the interval justifies; "1" for the default.
+/// "0.71 (0.70–0.73)", to the digit that the interval justifies, and so that it is read as below or above 1; "1" for
+/// the default.
 [[nodiscard]] std::string ratio_text(const LedgerRow& row);
 /// Three significant digits: "0.0123", "12.3", "1230", "4.1e-06", "0".
 [[nodiscard]] std::string number_text(double value);
@@ -28,10 +29,18 @@ namespace gloam {
 
 /// Mean FLIP, at least the reference's noise; nullopt without FLIP.
 [[nodiscard]] std::optional<double> flip_error(const LedgerRow& row);
-/// Who sees a mean FLIP: "nobody sees it side by side".
-[[nodiscard]] std::string_view visibility_words(double flip);
+/// Who sees an error: "nobody sees it side by side", "seen at once". FLIP; a small mean may hide places whose error is
+/// seen, which the 99th percentile tells.
+[[nodiscard]] std::string_view visibility_words(const ErrorPair& flip);
 /// The row's error with its unit, and in words if it is FLIP; "no reference" without one.
 [[nodiscard]] std::string error_text_of(const LedgerRow& row);
+
+/// The row's error in words, then its number: "seen at once (error 0.2 FLIP)".
+[[nodiscard]] std::string error_words(const LedgerRow& row);
+/// The text with a capital first letter.
+[[nodiscard]] std::string sentence(std::string_view text);
+/// The reference of the row's error: "brute force, exact lists"; of a name that says the kind, the name.
+[[nodiscard]] std::string reference_text(const LedgerRow& row);
 
 /// The part of a knob's name before the first point.
 [[nodiscard]] std::string_view module_of(std::string_view knob);

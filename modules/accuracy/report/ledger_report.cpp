@@ -37,6 +37,7 @@ std::string page_header(const ReportData& data) {
                       ? "<a href=\"#turn-down\">What to turn down</a>"
                       : "<a href=\"#budgets\">What to turn down</a> <a href=\"#turn-down\">One knob at a time</a>") +
       " <a href=\"#effects\">Each effect</a> <a href=\"#look\">Look</a> ";
+  if (!data.ledger.skipped.empty()) html += "<a href=\"#called-for\">Called for</a> ";
   if (!data.ledger.cameras.empty()) html += "<a href=\"#cameras\">Cameras</a> ";
   html += "<a href=\"#everything\">Everything</a> <a href=\"#conditions\">Conditions</a></nav>\n";
   return html + "</header>\n";
@@ -60,6 +61,7 @@ std::string ledger_report(const Ledger& ledger, const ReportRequest& request) {
   html += budgets_section(data) + savings_section(data);
   html += effects_section(data);
   html += look_section(data);
+  html += called_section(data);
   html += cameras_section(data);
   html += table_section(data);
   html += conditions_section(data);

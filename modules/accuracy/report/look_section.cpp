@@ -34,7 +34,7 @@ std::string row_option(const ReportData& data, const LedgerRow& row) {
 
 std::string reference_option(const ReportData& data, const LedgerRow& row) {
   if (!data.has_picture(row.reference_picture)) return {};
-  const std::string text = "reference: " + row.reference_kind + ", " + row.reference_name;
+  const std::string text = "reference: " + reference_text(row);
   return "<option value=\"reference " + escaped(row.reference_picture) + "\" data-picture=\"" +
          escaped(row.reference_picture) + "\" data-heat=\"\" data-worst=\"\" data-areas=\"\" data-note=\"" +
          escaped(text) + "\">" + escaped(text) + "</option>\n";
@@ -65,12 +65,17 @@ std::string picture_options(const ReportData& data) {
   return html;
 }
 
-/// The comparison that is shown first: the greatest saving, or else the first value that differs from its default.
+/// The comparison that is shown first: the recommendation, or else the greatest saving, or else the first value that
+/// differs from its default.
 std::string first_comparison(const ReportData& data) {
   const LedgerRow* standard = nullptr;
   const LedgerRow* row = nullptr;
+  if (data.recommended != nullptr && data.users != nullptr) {
+    row = &data.recommended->measured;
+    standard = &data.users->measured;
+  }
   for (const auto* list : {&data.savings.below_003, &data.savings.below_001, &data.savings.no_less_right}) {
-    if (list->empty()) continue;
+    if (list->empty() || data.recommended != nullptr) continue;
     row = list->front().row;
     standard = list->front().standard;
   }

@@ -38,7 +38,9 @@ function startLook() {
       const area = document.createElement('span');
       area.className = 'area';
       area.setAttribute('aria-hidden', 'true');
-      area.textContent = index + 1;
+      const number = document.createElement('span');
+      number.textContent = index + 1;
+      area.append(number);
       area.style.left = 100 * x / size.width + '%';
       area.style.top = 100 * y / size.height + '%';
       area.style.width = 100 * width / size.width + '%';
@@ -88,8 +90,7 @@ function startLook() {
     if (!link) return;
     if (link.dataset.left) choose(left, link.dataset.left);
     choose(right, link.dataset.right);
-    show();
-    byId('look-title').focus();
+    show();  // then the link moves the focus
   });
   const first = byId('look').dataset;
   if (first.left) choose(left, first.left);
@@ -137,6 +138,37 @@ function startTable() {
   filter();
 }
 
+// The measured combination with the least error within the time that is typed; of equal ones, the fastest.
+function startBudget() {
+  const input = byId('budget');
+  if (!input) return;
+  input.parentElement.hidden = false;
+  const rows = [...byId('points').tBodies[0].rows];
+  const answer = () => {
+    const limit = Number(input.value), line = byId('budget-answer');
+    let best = null;
+    for (const row of rows)
+      if (Number(row.dataset.ms) <= limit && (!best || Number(row.dataset.flip) < Number(best.dataset.flip))) best = row;
+    if (!best) {
+      line.textContent = 'No measured combination is as fast.';
+      return;
+    }
+    if (best.dataset.now === '1') {
+      line.textContent = 'Your settings: ' + best.cells[2].textContent + ', error ' + best.cells[4].textContent + '.';
+      return;
+    }
+    const [ratio, time, , error] = [...best.cells].slice(1).map((cell) => cell.textContent);
+    const file = document.createElement('a');
+    file.href = 'data:application/json,' + encodeURIComponent(best.dataset.config);
+    file.download = 'settings.json';
+    file.textContent = 'download for --config';
+    line.replaceChildren(best.cells[0].firstElementChild.cloneNode(true), ': ' + ratio + ' of your time, ' + time +
+        ', error ' + error + '; ', file);
+  };
+  input.addEventListener('input', answer);
+  answer();
+}
+
 // Copies the text of a setting's file. Without access to the clipboard, the text is selected.
 function startCopying() {
   document.addEventListener('click', async (event) => {
@@ -147,13 +179,27 @@ function startCopying() {
       await navigator.clipboard.writeText(text.textContent);
       button.textContent = 'Copied';
     } catch {
+      text.closest('details').open = true;
       getSelection().selectAllChildren(text);
       button.textContent = 'Selected: press Ctrl+C';
     }
+    button.removeAttribute('aria-label');
   });
 }
 
+// Paper cannot unfold anything.
+function startPrinting() {
+  let folded = [];
+  addEventListener('beforeprint', () => {
+    folded = [...document.querySelectorAll('details:not([open])')];
+    for (const details of folded) details.open = true;
+  });
+  addEventListener('afterprint', () => { for (const details of folded) details.open = false; });
+}
+
 startLook();
+startBudget();
+startPrinting();
 startTable();
 startCopying();
 )js";

@@ -30,27 +30,39 @@ h2:focus-visible { outline: 3px solid var(--link); }
 .skip:focus { left: 1rem; top: .5rem; background: var(--page); padding: .5rem; }
 nav a { margin-right: 1rem; display: inline-block; }
 .meaning, .reference, .empty, .none { color: var(--soft); }
-.cards { list-style: none; margin: .75rem 0; padding: 0; display: grid; gap: 1rem;
-  grid-template-columns: repeat(auto-fill, minmax(min(30rem, 100%), 1fr)); }
+.cards { list-style: none; margin: .75rem 0; padding: 0; display: grid; gap: 1rem; align-items: start;
+  grid-template-columns: repeat(auto-fill, minmax(min(22rem, 100%), 1fr)); }
 .card, .knob { border: 1px solid var(--line); border-radius: 6px; background: var(--panel); padding: .9rem 1rem; }
 .knob { margin: .75rem 0; }
-.setting pre { max-height: 14rem; overflow: auto; margin: .4rem 0; }
+.lead { margin: .75rem 0 1.5rem; }
+.lead ul { margin: .25rem 0 .5rem; padding-left: 1.25rem; }
+.answer { font-size: 1.2rem; max-width: none; }
+.lead pre, .setting pre { max-height: 14rem; overflow: auto; margin: .4rem 0; }
+.lead details, .setting details { margin: .4rem 0; }
+.lead .do, .setting .do { justify-content: flex-start; }
+#budget { width: 7rem; }
+#budget-answer code { overflow-wrap: anywhere; }
 .setting img { width: 100%; margin: .4rem 0; }
 .setting ul { margin: .25rem 0; padding-left: 1.25rem; }
-.points { width: 100%; }
-.points code { white-space: normal; overflow-wrap: anywhere; }
+#points { width: 100%; }
+#points code { white-space: normal; overflow-wrap: anywhere; }
 .gain { font-size: 1.2rem; }
 .pair { display: grid; grid-template-columns: 1fr 1fr; gap: .6rem; margin: .5rem 0; }
 figure { margin: 0; }
 figcaption { color: var(--soft); font-size: .88rem; }
 img { display: block; max-width: 100%; }
 .pair img { width: 100%; }
-.do { display: flex; flex-wrap: wrap; gap: .25rem 1.25rem; justify-content: space-between; }
+.and-worst { grid-template-columns: 1fr 1fr .56fr; }
+.worst img { image-rendering: pixelated; }
+#budgets h2 { margin-top: 1.25rem; }
+.do { display: flex; flex-wrap: wrap; align-items: center; gap: .25rem 1.25rem; justify-content: space-between; }
 .chart-and-table { display: flex; flex-wrap: wrap; gap: 1rem; align-items: flex-start; }
 .plot { flex: 1 1 26rem; min-width: 0; max-width: 35rem; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: .92rem; }
-.values { flex: 1 1 24rem; }
-.values td:nth-child(2) { white-space: nowrap; }
+.values { flex: 1 1 24rem; min-width: 0; }
+.values table { width: 100%; font-size: .85rem; }
+.values th, .values td { padding: .25rem .4rem; }
+.values td:last-child { min-width: 7.5rem; }
 th, td { text-align: left; padding: .25rem .6rem; border-bottom: 1px solid var(--line); vertical-align: top; font-weight: normal; }
 thead th { font-weight: 600; }
 .number { text-align: right; white-space: nowrap; }
@@ -73,7 +85,9 @@ details { margin: 1rem 0; }
 summary { cursor: pointer; font-weight: 600; }
 select, input, button { font: inherit; color: inherit; background: var(--page); border: 1px solid var(--soft); border-radius: 4px; padding: .2rem .4rem; }
 select { max-width: 100%; }
-.pickers { display: flex; flex-wrap: wrap; gap: .25rem 2rem; }
+.pickers { display: flex; flex-wrap: wrap; gap: .25rem 2rem; max-width: 52rem; }
+.pickers p { flex: 1 1 18rem; min-width: 0; }
+.pickers select { width: 100%; }
 .compare { position: relative; overflow: hidden; max-width: 52rem; background: #000; touch-action: none; cursor: ew-resize; }
 .compare img { width: 100%; }
 #right-picture { position: absolute; inset: 0; height: 100%; clip-path: inset(0 0 0 var(--border, 50%)); }
@@ -87,10 +101,10 @@ select { max-width: 100%; }
 #heat-figure { flex: 1 1 26rem; max-width: 40rem; }
 .heat { position: relative; }
 .heat img { width: 100%; }
-.area { position: absolute; border: 2px solid #fff; outline: 1px solid #000; color: #fff; font-size: .8rem; line-height: 1; padding: 2px;
-  text-shadow: 0 0 3px #000; }
-#worst-picture { width: 392px; image-rendering: pixelated; }
-#worst-figure { max-width: 392px; }
+.area { position: absolute; border: 2px solid #fff; outline: 1px solid #000; color: #fff; font-size: .8rem; line-height: 1; }
+.area span { background: #000; padding: 1px 3px; }
+#worst-picture { width: 392px; max-width: 100%; image-rendering: pixelated; }
+#worst-figure { max-width: min(392px, 100%); }
 .legend { display: block; height: .8rem; max-width: 24rem; margin-top: .3rem;
   background: linear-gradient(90deg, rgb(0, 0, 0), rgb(70, 20, 120), rgb(185, 55, 105), rgb(250, 145, 55), rgb(255, 250, 195)); }
 .legend-text { display: block; position: relative; height: 1.3rem; max-width: 24rem; }
@@ -99,22 +113,46 @@ select { max-width: 100%; }
 .legend-text span:last-child { transform: translateX(-100%); }
 .filters { display: flex; flex-wrap: wrap; gap: .25rem 1.5rem; align-items: center; }
 .scroll { overflow-x: auto; }
-#rows { width: 100%; }
+#rows { width: 100%; font-size: .85rem; }
+#rows th, #rows td { padding: .25rem .4rem; }
+.unit { display: inline-block; white-space: normal; max-width: 8rem; text-align: left; }
+#called-for details { margin: .2rem 0 .5rem; }
 #rows thead th { white-space: normal; vertical-align: bottom; }
 #rows code { white-space: nowrap; }
 #rows thead button { border: 0; background: none; padding: 0; font-weight: 600; cursor: pointer; text-align: inherit; }
 #rows th[aria-sort="ascending"] button::after { content: " ▲"; }
 #rows th[aria-sort="descending"] button::after { content: " ▼"; }
+@media (max-width: 40rem) {
+  body { padding: 0 .9rem 3rem; }
+  .plot text { font-size: 17px; }
+  .and-worst { grid-template-columns: 1fr 1fr; }
+}
 dl { display: grid; grid-template-columns: max-content 1fr; gap: .2rem 1rem; }
 dt { color: var(--soft); }
 dd { margin: 0; overflow-wrap: anywhere; }
 @media print {
   :root { --page: #fff; --text: #000; --soft: #444; --line: #bbb; --panel: #fff; --link: #000; --front: #000; --other: #888; }
-  nav, .skip, .filters, .pickers, #slider, label[for="slider"] { display: none; }
-  .card, .knob, figure, tr { break-inside: avoid; }
-  h2, h3, h4 { break-after: avoid; }
+  body { padding: 0; max-width: none; font-size: .8rem; }
+  nav, .skip, .filters, .pickers, .budget, #budget-answer, .do, #slider, label[for="slider"] { display: none; }
+  .card, .knob, figure, tr, svg, pre, .lead .pair, .compare, .errors { break-inside: avoid; }
+  .legend, .corner, .area, .area span, .bar { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
+  summary { list-style: none; }
+  summary::-webkit-details-marker { display: none; }
+  pre { white-space: pre-wrap; overflow-wrap: anywhere; }
+  .chart-and-table, .errors { flex-wrap: nowrap; }
+  .plot { flex: 1 1 48%; }
+  .values { flex: 1 1 52%; }
+  .values table { font-size: .6rem; }
+  .values th, .values td { padding: .15rem .25rem; }
+  .values td:last-child { min-width: 0; }
+  #heat-figure, #worst-figure { flex: 1 1 50%; }
+  .cards { grid-template-columns: 1fr 1fr; }
+  h2, h3, h4, h2 + p, h3 + p, summary { break-after: avoid; }
   .scroll { overflow: visible; }
-  #rows { font-size: .6rem; }
+  .compare { max-width: 30rem; }
+  #rows, #points { font-size: .55rem; }
+  #rows code { overflow-wrap: anywhere; }
+  #rows code, #rows th, #rows td { white-space: normal; }
   #rows th, #rows td { padding: .1rem .2rem; }
 }
 )css";

@@ -33,7 +33,25 @@ std::vector<KnobResults> group_by_knob(const Ledger& ledger, const ReportRequest
 }
 
 /// Right, and significantly cheaper than the default.
-bool saves(const LedgerRow& row) { return !row.is_default && row.wrong.empty() && row.ratio_high < 1.0 && row.flip; }
+bool saves(const LedgerRow& row) {
+  return !row.is_default && row.wrong.empty() && !row.no_effect && row.ratio_high < 1.0 && row.flip;
+}
+
+const LedgerPoint* users_point(const Ledger& ledger) {
+  const auto found =
+      std::ranges::find_if(ledger.points, [](const LedgerPoint& point) { return point.measured.is_default; });
+  return found == ledger.points.end() ? nullptr : &*found;
+}
+
+const LedgerPoint* recommended_point(const Ledger& ledger, const LedgerPoint* users) {
+  for (const double bound : {0.01, 0.03})
+    for (const LedgerPoint& point : ledger.points) {
+      const bool right =
+          point.measured.flip->mean < bound || (users && point.measured.flip->mean <= users->measured.flip->mean);
+      if (right && point.measured.ratio_high < 1.0) return &point;
+    }
+  return nullptr;
+}
 
 bool in_list(const std::vector<Saving>& list, const LedgerRow* row) {
   return std::ranges::find(list, row, &Saving::row) != list.end();
@@ -118,6 +136,8 @@ ReportData report_data(const Ledger& ledger, const ReportRequest& request) {
   ReportData data = {.ledger = ledger, .command = request.command, .meanings = request.meanings};
   data.knobs = group_by_knob(ledger, request);
   data.savings = find_savings(data.knobs);
+  data.users = users_point(ledger);
+  data.recommended = recommended_point(ledger, data.users);
   embed_pictures(request, data);
   return data;
 }

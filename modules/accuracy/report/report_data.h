@@ -41,6 +41,10 @@ struct ReportData {
   std::vector<KnobMeaning> meanings;
   std::vector<KnobResults> knobs;  ///< in the order of the ledger
   Savings savings;
+  const LedgerPoint* users = nullptr;  ///< the user's own settings; null: no combinations were measured
+  /// The fastest combination that is significantly faster than the user's and whose error is below 0.01, or no greater
+  /// than that of the user's; or else below 0.03. Null: there is none.
+  const LedgerPoint* recommended = nullptr;
   /// Name and data: URI of the embedded pictures.
   std::vector<std::pair<std::string, std::string>> embedded;
   std::vector<std::string> linked;  ///< names of all pictures in the folder, sorted

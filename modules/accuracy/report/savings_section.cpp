@@ -9,8 +9,8 @@ namespace {
 std::string saving_error(const Saving& saving) {
   if (!saving.row->picture.empty() && saving.row->picture == saving.standard->picture)
     return "The picture is equal to the default’s to the bit.";
-  std::string text = "Error " + error_text_of(*saving.row);
-  if (const auto now = flip_error(*saving.standard)) text += " (default: " + number_text(*now) + ")";
+  std::string text = sentence(error_words(*saving.row));
+  if (const auto now = flip_error(*saving.standard)) text += "; error of the default: " + number_text(*now);
   if (saving.row->counted) text += "; FLIP " + number_text(*flip_error(*saving.row));
   return escaped(text) + ".";
 }
@@ -33,7 +33,7 @@ std::string saving_card(const ReportData& data, const Saving& saving, const Knob
           saving_figure(data, row, row.value) + "</div>\n";
   html += "<p class=\"do\"><code>--set " + escaped(setting_of(row)) + "</code> " +
           look_link(row, saving.standard, "Compare under a slider",
-                    "aria-label=\"Compare " + escaped(setting_of(row)) + " with the default under a slider\"") +
+                    "aria-label=\"Compare under a slider: the default and " + escaped(setting_of(row)) + "\"") +
           "</p>\n";
   return html + "</li>\n";
 }
@@ -64,7 +64,9 @@ std::string savings_section(const ReportData& data) {
   const Savings& savings = data.savings;
   html += saving_list(data, savings.no_less_right, "No less right than the default",
                       "Cheaper, with an error no greater than the default’s: nothing is given up.");
-  html += saving_list(data, savings.below_001, "Error below 0.01", "Nobody sees it side by side with the reference.");
+  html += saving_list(data, savings.below_001, "Error below 0.01",
+                      "Nobody sees it side by side with the reference, but for the worst places where the "
+                      "99th percentile (p99) reaches 0.1.");
   html += saving_list(data, savings.below_003, "Error below 0.03",
                       "Cheaper than what the lists above offer for the same knob; seen at most when flipping.");
   if (savings.no_less_right.empty() && savings.below_001.empty() && savings.below_003.empty())

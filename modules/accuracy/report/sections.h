@@ -14,12 +14,16 @@ namespace gloam {
 /// The best combination for each time and each error, the front, and how well the model predicted. Empty without
 /// points.
 [[nodiscard]] std::string budgets_section(const ReportData& data);
+/// The recommended combination, its picture beside that of the user's settings.
+[[nodiscard]] std::string recommendation(const ReportData& data);
 /// Values that give back time at a small error.
 [[nodiscard]] std::string savings_section(const ReportData& data);
-/// A plot and a table for each knob; knobs without effect and knobs that were not measured.
+/// A plot and a table for each knob; knobs without effect.
 [[nodiscard]] std::string effects_section(const ReportData& data);
 /// Two pictures under a slider, the error and its worst areas.
 [[nodiscard]] std::string look_section(const ReportData& data);
+/// Effects that take no part in the scene's frames, and why. Empty if all knobs were measured.
+[[nodiscard]] std::string called_section(const ReportData& data);
 /// What the other sections show of several cameras, and a table of each. Empty for one camera.
 [[nodiscard]] std::string cameras_section(const ReportData& data);
 /// All rows.
@@ -36,6 +40,14 @@ namespace gloam {
 /// An image that the page's script fills from the embedded pictures, in a link to the full picture; a text if there is
 /// no picture.
 [[nodiscard]] std::string picture_html(const ReportData& data, const std::string& name, std::string_view description);
+/// "12.3 ms (12.0–12.9)"
+[[nodiscard]] std::string point_time(const ReportData& data, const LedgerPoint& point);
+/// A list of the settings against the declared defaults. with_meaning: with the knobs' sentences.
+[[nodiscard]] std::string settings_list(const ReportData& data, const LedgerPoint& point, bool with_meaning);
+/// The settings as a file for --config, to copy or to download, and a link that shows the point's picture beside that
+/// of the user's settings. id: of the element with the file's text. title: names the settings.
+[[nodiscard]] std::string settings_file(const ReportData& data, const LedgerPoint& point, const std::string& id,
+                                        const std::string& title);
 /// "knob=value"; of a point, its settings_text()
 [[nodiscard]] std::string setting_of(const LedgerRow& row);
 

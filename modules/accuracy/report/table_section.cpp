@@ -61,13 +61,17 @@ std::vector<TableColumn> table_columns(const Ledger& ledger) {
       {"Frame, ms", true, [](const ReportData&, const LedgerRow& row) { return number_cell(row.ms.median_ms); }},
       {"FLIP mean", true, [](const ReportData&, const LedgerRow& row) { return flip_cell(row, &ErrorPair::mean); }},
       {"FLIP p99", true, [](const ReportData&, const LedgerRow& row) { return flip_cell(row, &ErrorPair::p99); }},
+      {"FLIP at edges", true,
+       [](const ReportData&, const LedgerRow& row) {
+         return number_cell(row.edges ? std::optional(row.edges->flip.mean) : std::nullopt);
+       }},
       {"RMSE, cd/m²", true, [](const ReportData&, const LedgerRow& row) { return number_cell(row.rmse); }}};
   if (std::ranges::any_of(ledger.rows, [](const LedgerRow& row) { return row.counted.has_value(); }))
     columns.push_back({"Counted", true, [](const ReportData&, const LedgerRow& row) {
-                         return row.counted
-                                    ? TableCell{number_text(row.counted->value) + " " + escaped(row.counted->unit),
-                                                row.counted->value, true}
-                                    : number_cell(std::nullopt);
+                         return row.counted ? TableCell{number_text(row.counted->value) + " <span class=\"unit\">" +
+                                                            escaped(row.counted->unit) + "</span>",
+                                                        row.counted->value, true}
+                                            : number_cell(std::nullopt);
                        }});
   if (std::ranges::any_of(ledger.rows, [](const LedgerRow& row) { return row.temporal.has_value(); }))
     columns.push_back({"Temporal", true, [](const ReportData&, const LedgerRow& row) {
@@ -95,9 +99,10 @@ std::string table_row(const ReportData& data, const std::vector<TableColumn>& co
       formatted("<tr data-front=\"%d\" data-effect=\"%d\">", row.on_front ? 1 : 0, row.no_effect ? 0 : 1);
   for (const TableColumn& column : columns) {
     const TableCell cell = column.cell(data, row);
-    html += cell.numeric ? "<td class=\"number\"" : "<td";
+    const bool names_row = &column == &columns[1];  // the value; that of a knob's name would name several rows
+    html += names_row ? "<th scope=\"row\"" : cell.numeric ? "<td class=\"number\"" : "<td";
     if (cell.number) html += formatted(" data-sort=\"%.9g\"", *cell.number);
-    html += ">" + cell.html + "</td>";
+    html += ">" + cell.html + (names_row ? "</th>" : "</td>");
   }
   return html + "</tr>\n";
 }
@@ -145,7 +150,8 @@ std::string table_section(const ReportData& data) {
   return html +
          "<p>Front: no other value of the knob is as cheap and as right. Ratio: time divided by the default’s, the "
          "median over "
-         "pairs of neighbouring frames, with its 95 % interval. Whole frame: against the frame with every knob at its "
+         "pairs of neighbouring frames, with its 95 % interval. At edges: the mean over the pixels within two of an "
+         "edge of the reference. Whole frame: against the frame with every knob at its "
          "most exact value. Module times are those of the knob’s module alone, on "
          "the "
          "wall.</p>\n</section>\n";

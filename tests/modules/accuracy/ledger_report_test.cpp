@@ -93,6 +93,27 @@ TEST(HtmlText, numbers_are_short) {
   EXPECT_EQ(number_text(123.4), "123");
   EXPECT_EQ(number_text(4.2e-6), "4.2e-06");
   EXPECT_EQ(ratio_text(value_row("a.b", "c", 0.71, 0.0)), "0.71 (0.70–0.72)");
+  LedgerRow row = value_row("a.b", "c", 0.97, 0.0);
+  row.ratio_high = 0.9985;
+  EXPECT_EQ(ratio_text(row), "0.970 (0.951–0.999)") << "an interval that ends below 1 does not read as 1";
+}
+
+TEST(HtmlText, words_of_a_small_mean_tell_of_bad_places) {
+  EXPECT_EQ(visibility_words({0.005, 0.05}), "nobody sees it side by side");
+  EXPECT_EQ(visibility_words({0.005, 0.2}), "seen only at its worst places");
+  EXPECT_EQ(visibility_words({0.02, 0.2}), "seen at most when flipping between the pictures");
+  EXPECT_EQ(visibility_words({0.2, 0.2}), "seen at once");
+  LedgerRow row = value_row("a.b", "c", 0.5, 0.005);
+  EXPECT_EQ(error_words(row), "nobody sees it side by side (error 0.00500 FLIP, p99 0.0100)");
+  row.flip = ErrorPair{};
+  EXPECT_EQ(error_words(row), "equal to the reference (error 0)");
+}
+
+TEST(HtmlText, names_a_reference_once) {
+  LedgerRow row = {.reference_kind = "traced", .reference_name = "reflections, traced"};
+  EXPECT_EQ(reference_text(row), "reflections, traced");
+  row.reference_name = "lists";
+  EXPECT_EQ(reference_text(row), "traced, lists");
 }
 
 TEST(LedgerReport, is_whole_for_an_empty_ledger) {
@@ -131,18 +152,75 @@ TEST(LedgerReport, first_screen_has_the_greatest_savings_of_each_bound_once) {
   EXPECT_EQ(savings.below_003[0].row->value, "lower");
 }
 
+TEST(LedgerReport, offers_no_value_that_chance_made_cheaper) {
+  std::vector<LedgerRow> rows = {value_row("a.x", "on", 1.0, 0.0), value_row("a.x", "off", 0.97, 0.0),
+                                 value_row("a.x", "far", 0.99, 0.2)};
+  rows[1].no_effect = true;  // the pictures are equal, and the 99.8 % intervals overlap
+  EXPECT_THAT(report_data(ledger_of(rows), {}).savings.no_less_right, IsEmpty());
+}
+
+TEST(LedgerReport, recommends_the_fastest_setting_whose_error_is_not_seen) {
+  Ledger ledger = ledger_with_points();
+  EXPECT_EQ(report_data(ledger, {}).recommended, nullptr) << "12 ms has an error of 0.05";
+  EXPECT_THAT(ledger_report(ledger, {}), HasSubstr("<strong>Nothing.</strong> No measured combination"));
+  ledger.rows[0].flip = ErrorPair{0.005, 0.005};
+  EXPECT_THAT(ledger_report(ledger, {}), HasSubstr("<strong>Single values only.</strong> No measured combination"));
+  ledger.points.insert(ledger.points.begin() + 1, point_at(20.0, 0.02, {{"shadows.filter", "pcf"}}));
+  EXPECT_EQ(report_data(ledger, {}).recommended, &ledger.points[1]) << "below 0.03";
+  ledger.points.insert(ledger.points.begin() + 2, point_at(30.0, 0.009, {{"shadows.filter", "pcss"}}));
+  EXPECT_EQ(report_data(ledger, {}).recommended, &ledger.points[2]) << "below 0.01";
+  const std::string html = ledger_report(ledger, {.meanings = {{"shadows.filter", "a sentence", "chs"}}});
+  EXPECT_THAT(html, HasSubstr("a frame takes <strong>0.75 (0.73–0.77)</strong> of the time that it takes now, and "
+                              "<strong>nobody sees it side by side</strong>"));
+  EXPECT_THAT(html,
+              HasSubstr("<code>shadows.filter</code> chs → <strong>pcss</strong> <span class=\"meaning\">a sent"));
+  EXPECT_LT(html.find("<div class=\"lead\">"), html.find("For a time")) << "the answer comes first";
+  EXPECT_THAT(html, HasSubstr("id=\"look\" aria-labelledby=\"look-title\" data-left=\"default\" "
+                              "data-right=\"shadows.filter=pcss\""))
+      << "and is what the slider shows";
+  ledger.points[2].measured.ratio_high = 1.0;
+  EXPECT_EQ(report_data(ledger, {}).recommended, &ledger.points[1]) << "not significantly faster";
+  ledger.points[1].measured.flip = ErrorPair{0.9, 0.9};
+  ledger.points[3].measured.flip = ErrorPair{0.95, 0.95};
+  EXPECT_EQ(report_data(ledger, {}).recommended, &ledger.points[0]) << "no less right than the user's settings";
+  EXPECT_THAT(ledger_report(ledger, {}), HasSubstr("<strong>it is no less right than now</strong>"));
+}
+
+TEST(LedgerReport, tells_what_antialiasing_does_to_edges) {
+  std::vector<LedgerRow> rows = {value_row("lighting.antialiasing", "off", 1.0, 0.0374),
+                                 value_row("lighting.antialiasing", "smaa", 1.1, 0.0388)};
+  for (LedgerRow& row : rows) row.reference_kind = "accumulated";
+  rows[0].edges = EdgeError{{0.2, 0.6}, 20.0, 0.05};
+  rows[1].edges = EdgeError{{0.1, 0.3}, 23.5, 0.05};
+  std::string html = ledger_report(ledger_of(rows), {});
+  EXPECT_THAT(html, HasSubstr("At edges, 5 % of the picture, <code>smaa</code> is nearer to the reference than "
+                              "<code>off</code> by 3.5 dB (PSNR); FLIP at edges is 0.100 (p99 0.300) and 0.200 (p99 "
+                              "0.600)."));
+  EXPECT_THAT(html, HasSubstr("<td class=\"number\">0.0374</td><td class=\"number\">0.0748</td><td "
+                              "class=\"number\">0.200</td>"))
+      << "mean, 99th percentile, edges";
+  rows[1].edges->psnr_db = 20.5;
+  EXPECT_THAT(ledger_report(ledger_of(rows), {}), Not(HasSubstr("At edges, 5 %"))) << "less than 1 dB";
+  rows[1].edges.reset();
+  html = ledger_report(ledger_of(rows), {});
+  EXPECT_THAT(html, HasSubstr("<td class=\"number\">–</td>")) << "a ledger of an earlier version";
+}
+
 TEST(LedgerReport, answers_what_to_turn_down_for_each_budget) {
   const std::string html = ledger_report(ledger_with_points(), {.meanings = {{"shadows.filter", "width", "chs"}}});
   EXPECT_THAT(html, HasSubstr("No measured setting is as fast as 8 ms: the fastest takes 12.0 ms."));
-  EXPECT_THAT(html, HasSubstr("<h4>Within 16 ms, 33 ms</h4>\n<p><strong class=\"gain\">12.0 ms (11.8–12.2)"));
-  EXPECT_THAT(html, HasSubstr("<h4>Within 50 ms</h4>\n<p><strong class=\"gain\">40.0 ms</strong>: your own settings"));
-  EXPECT_THAT(html, HasSubstr("<h4>Within 100 ms</h4>\n<p><strong class=\"gain\">90.0 ms"));
-  EXPECT_THAT(html, HasSubstr("Error 0.0500 FLIP: seen when flipping between the pictures."));
+  EXPECT_THAT(html,
+              HasSubstr("<h4>Within 16 ms, 33 ms</h4>\n<p><strong class=\"gain\">0.30 (0.29–0.31)</strong> of your "
+                        "time: 12.0 ms (11.8–12.2)"));
+  EXPECT_THAT(html, HasSubstr("<h4>Within 50 ms</h4>\n<p><strong class=\"gain\">Your settings</strong>: 40.0 ms."));
+  EXPECT_THAT(html, HasSubstr("<h4>Within 100 ms</h4>\n<p><strong class=\"gain\">2.25 ("));
+  EXPECT_THAT(html, HasSubstr("Seen when flipping between the pictures (error 0.0500 FLIP, p99 0.0500)."));
   EXPECT_THAT(html, HasSubstr("<code>shadows.filter</code> chs → <strong>hard</strong>")) << "what is turned down";
   EXPECT_THAT(html, HasSubstr("{\n  &quot;shadows.filter&quot;: &quot;hard&quot;\n}"));
   EXPECT_THAT(html,
               HasSubstr("href=\"data:application/json,%7B%0A%20%20%22shadows.filter%22%3A%20%22hard%22%0A%7D%0A\""));
-  EXPECT_THAT(html, HasSubstr("<h4>Error below 0.01, 0.03</h4>\n<p><strong class=\"gain\">40.0 ms"));
+  EXPECT_THAT(html,
+              HasSubstr("<h4>Error below 0.01, 0.03</h4>\n<p><strong class=\"gain\">Your settings</strong>: 40.0 ms"));
   EXPECT_THAT(html, HasSubstr("predicted time is 1.25 in the median, 0.500 at worst; for the error it is 0.750"));
   EXPECT_THAT(html, HasSubstr("Error against time of whole settings"));
 }
@@ -150,7 +228,7 @@ TEST(LedgerReport, answers_what_to_turn_down_for_each_budget) {
 TEST(LedgerReport, without_points_has_no_budgets) {
   Ledger ledger = ledger_with_points();
   ledger.points.clear();
-  EXPECT_THAT(ledger_report(ledger, {}), Not(HasSubstr("budgets")));
+  EXPECT_THAT(ledger_report(ledger, {}), Not(HasSubstr("id=\"budgets\"")));
 }
 
 TEST(LedgerReport, offers_the_points_pictures_and_the_whole_frame) {
@@ -202,10 +280,13 @@ TEST(LedgerReport, folds_knobs_without_effect_and_names_skipped_ones) {
   std::vector<LedgerRow> rows = {value_row("a.x", "on", 1.0, 0.0), value_row("a.x", "off", 0.99, 0.0)};
   for (LedgerRow& row : rows) row.no_effect = true;
   Ledger ledger = ledger_of(rows);
-  ledger.skipped = {{"grass.lod", "no patch"}};
+  ledger.skipped = {{"grass.lod", "no patch"}, {"fog.radius", "no fog"}, {"grass.cast_distance", "no patch"}};
   const std::string html = ledger_report(ledger, {});
   EXPECT_THAT(html, HasSubstr("Knobs without effect in this scene: 1"));
-  EXPECT_THAT(html, HasSubstr("<code>grass.lod</code>: no patch"));
+  EXPECT_THAT(html, HasSubstr("<li>No patch\n<details><summary>Knobs: 2</summary><p><code>grass.lod</code>, "
+                              "<code>grass.cast_distance</code></p>"));
+  EXPECT_THAT(html, HasSubstr("<li>No fog\n<details><summary>Knobs: 1</summary>"));
+  EXPECT_THAT(html, HasSubstr("<a href=\"#called-for\">"));
   EXPECT_EQ(count_of(html, "<svg"), 0u);
 }
 

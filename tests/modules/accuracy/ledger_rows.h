@@ -29,6 +29,7 @@ inline LedgerRow full_row(std::uint32_t seed = 1) {
   row.rmse_p99 = number(random) * 1e-9;
   row.psnr_db = number(random) * 60.0;
   row.temporal = ErrorPair{number(random), number(random)};
+  row.edges = EdgeError{{number(random), number(random)}, number(random) * 60.0, number(random)};
   if (seed % 4 != 3) row.whole = WholeError{{number(random), number(random)}, number(random) * 1e3, number(random)};
   row.ms = {number(random) * 10.0, number(random), number(random) * 100.0};
   row.wall_ms = number(random);

@@ -77,9 +77,10 @@ TEST(ledger_json, reads_ledgers_of_the_same_version_without_later_keys) {
     for (const char* later :
          {"wall_ms", "ratio_interval", "ratio_sure_interval", "pairs", "picture", "no_effect", "whole"})
       row.erase(later);
+  for (auto& row : json["rows"]) row["error"].erase("edges");
   const auto read = parse_ledger_json(json.dump());
   ASSERT_TRUE(read.ok()) << read.error().message;
-  EXPECT_TRUE(read->points.empty() && !read->model && !read->rows[0].whole);
+  EXPECT_TRUE(read->points.empty() && !read->model && !read->rows[0].whole && !read->rows[0].edges);
   EXPECT_EQ(read->rows[0].ratio, full_ledger().rows[0].ratio);
   EXPECT_EQ(read->rows[0].ratio_high, read->rows[0].ratio) << "an interval of one point";
 }
@@ -167,6 +168,10 @@ TEST(ledger_csv, reads_back_what_it_wrote) {
     expect_number("whole_flip_p99", row.whole ? std::optional(row.whole->flip.p99) : std::nullopt);
     expect_number("whole_rmse", row.whole ? std::optional(row.whole->rmse) : std::nullopt);
     expect_number("whole_psnr_db", row.whole ? std::optional(row.whole->psnr_db) : std::nullopt);
+    expect_number("edge_flip_mean", row.edges ? std::optional(row.edges->flip.mean) : std::nullopt);
+    expect_number("edge_flip_p99", row.edges ? std::optional(row.edges->flip.p99) : std::nullopt);
+    expect_number("edge_psnr_db", row.edges ? std::optional(row.edges->psnr_db) : std::nullopt);
+    expect_number("edge_share", row.edges ? std::optional(row.edges->share) : std::nullopt);
   }
 }
 
@@ -237,6 +242,16 @@ TEST(ledger_table, tells_what_was_counted_and_what_is_wrong) {
   EXPECT_THAT(table, HasSubstr("!  lighting.tone_map  fast"));
   EXPECT_THAT(table, HasSubstr("brute force, exact lists; counted: false positives a tile\n"));
   EXPECT_THAT(table, HasSubstr("! lighting.tone_map=fast is wrong: 3 lights missing\n"));
+}
+
+TEST(ledger_table, shows_the_error_at_edges_if_a_row_has_one) {
+  LedgerRow row = bare_row();
+  row.flip = ErrorPair{0.01, 0.1};
+  EXPECT_THAT(ledger_table({.rows = {row}}), Not(HasSubstr("at edges  ")));
+  row.edges = EdgeError{{0.25, 0.5}, 20.0, 0.04};
+  const std::string table = ledger_table({.rows = {row}});
+  EXPECT_THAT(table, HasSubstr("FLIP p99  at edges"));
+  EXPECT_THAT(table, HasSubstr("0.100000  0.250000"));
 }
 
 TEST(ledger_table, of_nothing_is_a_head) { EXPECT_THAT(ledger_table({}), HasSubstr("knob")); }
