@@ -13,7 +13,7 @@ layout(set = 0, binding = 0, scalar) uniform Dof { DofConstants dof; };
 layout(set = 0, binding = 1) uniform sampler2D tile_image;
 // x: radius that reaches the tile from before the focus; y: something is blurred behind the focus in the tile (spread +
 // 1), in a neighbour (spread), … spread tiles away (1), nowhere near (0); z: greatest radius behind the focus in the
-// tile.
+// tile; w: greatest radius before the focus in the tile.
 layout(set = 0, binding = 2, rgba16f) uniform writeonly image2D reach_image;
 
 void main() {
@@ -30,5 +30,6 @@ void main() {
       near = max(near, reaches ? radius.x : 0.0);
       far = max(far, radius.y > 0.0 ? float(dof.spread + 1 - apart) : 0.0);
     }
-  imageStore(reach_image, tile, vec4(near, far, texelFetch(tile_image, tile, 0).y, 0.0));
+  vec2 own = texelFetch(tile_image, tile, 0).xy;
+  imageStore(reach_image, tile, vec4(near, far, own.y, own.x));
 }
