@@ -19,9 +19,10 @@ layout(set = 0, binding = 1) uniform sampler2D depth_image;
 layout(set = 0, binding = 2) uniform sampler2D far_image;
 layout(set = 0, binding = 3) uniform sampler2D near_image;
 layout(set = 0, binding = 4) uniform sampler2D beyond_image;
-layout(set = 0, binding = 5, rgba16f) uniform image2D lit_image;
+layout(set = 0, binding = 5) uniform sampler2D reach_image;
+layout(set = 0, binding = 6, rgba16f) uniform image2D lit_image;
 
-#define GLOAM_DOF_LIST_BINDING 6
+#define GLOAM_DOF_LIST_BINDING 7
 #include "shaders/depth_of_field/coc_api.glsl"
 #include "shaders/depth_of_field/list_api.glsl"
 
@@ -31,6 +32,8 @@ struct Near {
   vec4 beyond;
 };
 Near mix_near(Near a, Near b, float share) { return Near(mix(a.near, b.near, share), mix(a.beyond, b.beyond, share)); }
+
+bool beyond_is_written;  // in the tile
 
 // far: rgb multiplied by alpha, and alpha, the circle.
 void compose(ivec2 pixel, float depth, vec4 far, Near before) {
@@ -50,8 +53,8 @@ void compose(ivec2 pixel, float depth, vec4 far, Near before) {
     // The light beyond is written only where something before the focus is shown.
     float hidden = layer_share(-coc);
     covered = min(before.near.a, 1.0);
-    // Where nothing beyond is near, light that is missing was not finite; the object's own takes its place.
-    vec4 behind = before.beyond.a > 1e-4 ? before.beyond : before.near;
+    // Where nothing beyond is near, light that is missing was not finite. The object's own takes its place.
+    vec4 behind = beyond_is_written && before.beyond.a > 1e-4 ? before.beyond : before.near;
     if (hidden > 0.0) composed = mix(composed, behind.rgb / max(behind.a, 1e-6), hidden);
     if (covered > 0.0) composed = before.near.rgb + (1.0 - covered) * composed;
   }
@@ -117,6 +120,7 @@ void compose_column(ivec2 first) {
 void main() {
   DofTile tile;
   if (!listed_tile(kNear != 0u ? uint(GLOAM_DOF_COMPOSE_BOTH) : uint(GLOAM_DOF_COMPOSE_FAR), tile)) return;
+  beyond_is_written = texelFetch(reach_image, tile.place, 0).w > 0.0;
   tile_corner = tile.place * (GLOAM_DOF_TILE / int(kScale));
   ivec2 local = ivec2(gl_LocalInvocationID.x, int(gl_LocalInvocationID.y) * kRows);
   if (kScale == 2u) {

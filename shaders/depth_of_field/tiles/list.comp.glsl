@@ -35,7 +35,8 @@ void main() {
   if (any(greaterThanEqual(tile, ivec2(dof.tiles)))) return;
   int here = dof.spread + 1;  // y of reach_image where the tile itself is blurred
   float widest = 0.0;         // radius before the focus, over the tile and its neighbours
-  // As y of reach_image: something before the focus reaches the tile; the tile shows something before the focus.
+  // As y of reach_image: something before the focus reaches the tile; the same is shown in the tile, near
+  // something else.
   int near = 0, shown = 0;
   int near_first = 0, shown_first = 0;  // of the tiles whose last pass reads this one
   for (int y = -GLOAM_DOF_MOST_SPREAD; y <= GLOAM_DOF_MOST_SPREAD; ++y)
