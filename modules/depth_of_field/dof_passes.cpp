@@ -65,13 +65,14 @@ void list_dof_pipelines(const DofKnobs& knobs, bool threads_in_turn, PipelineLis
   const auto add = [&](const ComputeProgram& program) { list.push_back(pipeline_desc(program, "depth_of_field")); };
   add(dof_bounds_program());
   add(dof_reach_program());
-  add(dof_list_program(knobs.scale()));
   for (const bool near : {false, true}) {
     add(dof_prefilter_program(knobs.scale(), near));
     add(dof_compose_program(knobs.scale(), near, threads_in_turn));
   }
-  for (const Bokeh bokeh : {Bokeh::round, Bokeh::hexagonal})
+  for (const Bokeh bokeh : {Bokeh::round, Bokeh::hexagonal}) {
+    add(dof_list_program(knobs.scale(), bokeh));
     for (const ComputeProgram& program : dof_blur_programs(knobs, bokeh)) add(program);
+  }
 }
 
 }  // namespace gloam

@@ -14,10 +14,12 @@
 
 namespace gloam {
 
-/// The layers of a view: light behind the focus and before it.
+/// The layers of a view: light behind the focus, before it, and not before it.
 struct DofLayers {
   ImageRef far;   ///< rgba16f: light, and the circle of confusion as a share of dof.radius; 0: not blurred
   ImageRef near;  ///< rgba16f: light multiplied by its share in alpha
+  /// As `near`, of all light that is not in it. Blurred like `near`, it stands for what objects before the focus hide.
+  ImageRef beyond;
 };
 
 /// Constants and images that the passes of a view read.

@@ -29,7 +29,9 @@
 #define GLOAM_DOF_NEAR_LAST 5
 #define GLOAM_DOF_COMPOSE_FAR 6
 #define GLOAM_DOF_COMPOSE_BOTH 7
-#define GLOAM_DOF_LISTS 8
+#define GLOAM_DOF_BEYOND_FIRST 8  // as 3, of the light beyond
+#define GLOAM_DOF_BEYOND_LAST 9   // tiles that show something before the focus near something else
+#define GLOAM_DOF_LISTS 10
 
 GLOAM_SHARED_BEGIN
 

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "modules/depth_of_field/blur/blur_layers_passes.h"
 
+#include <array>
+#include <string>
+
 #include "modules/depth_of_field/tiles/list_tiles_passes.h"
 #include "shaders/depth_of_field/shaders.h"
 
@@ -14,11 +17,26 @@ constexpr DofLine kRightwardsAndUp{3, GLOAM_DOF_FAR_FIRST, 1};
 constexpr DofLine kUpThenRight{3, GLOAM_DOF_FAR_LAST, 0};
 constexpr DofLine kBothThenLeft{4, GLOAM_DOF_FAR_LAST, 2};
 
-ImageRef& layer(DofLayers& layers, bool near) { return near ? layers.near : layers.far; }
-const ImageRef& layer(const DofLayers& layers, bool near) { return near ? layers.near : layers.far; }
+struct LayerTraits {
+  ImageRef DofLayers::*image;
+  const char* name;
+  std::uint32_t first, last;  ///< lists of tiles of the first and of the last pass
+};
+constexpr std::array kTraits = {
+    LayerTraits{&DofLayers::far, "_far", GLOAM_DOF_FAR_FIRST, GLOAM_DOF_FAR_LAST},
+    LayerTraits{&DofLayers::near, "_near", GLOAM_DOF_NEAR_FIRST, GLOAM_DOF_NEAR_LAST},
+    LayerTraits{&DofLayers::beyond, "_beyond", GLOAM_DOF_BEYOND_FIRST, GLOAM_DOF_BEYOND_LAST}};
+constexpr std::array kLayers = {DofLayer::far, DofLayer::near, DofLayer::beyond};
 
-ImageRef layer_image(FrameBuilder& frame, const DofFrame& dof, const std::string& name, bool near) {
-  return create_view_image(frame, name + (near ? "_near" : "_far"), gpu::Format::rgba16_float, dof.inputs.scale());
+const LayerTraits& traits(DofLayer layer) { return kTraits[static_cast<std::size_t>(layer)]; }
+ImageRef& image(DofLayers& layers, DofLayer layer) { return layers.*traits(layer).image; }
+const ImageRef& image(const DofLayers& layers, DofLayer layer) { return layers.*traits(layer).image; }
+std::uint32_t list_of(DofLayer layer, bool last) { return last ? traits(layer).last : traits(layer).first; }
+/// kNear: the light beyond has the kernels of the near layer.
+std::uint32_t kernels(DofLayer layer) { return layer == DofLayer::far ? 0 : 1; }
+
+ImageRef layer_image(FrameBuilder& frame, const DofFrame& dof, const std::string& name, DofLayer layer) {
+  return create_view_image(frame, name + traits(layer).name, gpu::Format::rgba16_float, dof.inputs.scale());
 }
 
 void read_common(ComputePass& pass, const DofFrame& dof) {
@@ -33,36 +51,36 @@ void read_common(ComputePass& pass, const DofFrame& dof) {
 DofLayers add_round_pass(FrameBuilder& frame, const DofFrame& dof, const DofLayers& from, bool columns) {
   const char* name = columns ? "dof_blur_y" : "dof_blur_x";
   DofLayers blurred;
-  ComputePass pass(frame, name, dof_round_program(dof.inputs.scale(), false, columns));
-  for (const bool near : {false, true}) {
-    pass.use(dof_round_program(dof.inputs.scale(), near, columns));
+  ComputePass pass(frame, name, dof_round_program(dof.inputs.scale(), DofLayer::far, columns));
+  for (const DofLayer layer : kLayers) {
+    pass.use(dof_round_program(dof.inputs.scale(), layer, columns));
     read_common(pass, dof);
-    pass.read("layer_image", layer(from, near));
-    layer(blurred, near) = pass.write("blurred_image", layer_image(frame, dof, name, near));
-    dispatch_dof_list(pass, dof.tiles, (columns ? GLOAM_DOF_FAR_LAST : GLOAM_DOF_FAR_FIRST) + (near ? 1 : 0));
+    pass.read("layer_image", image(from, layer));
+    image(blurred, layer) = pass.write("blurred_image", layer_image(frame, dof, name, layer));
+    dispatch_dof_list(pass, dof.tiles, list_of(layer, columns));
   }
   return blurred;
 }
 
 DofLayers add_hexagon_passes(FrameBuilder& frame, const DofFrame& dof, const DofLayers& from) {
   DofLayers upright, both, blurred;
-  ComputePass lines(frame, "dof_hexagon_lines", dof_hexagon_lines_program(dof.inputs.scale(), false));
-  for (const bool near : {false, true}) {
-    lines.use(dof_hexagon_lines_program(dof.inputs.scale(), near));
+  ComputePass lines(frame, "dof_hexagon_lines", dof_hexagon_lines_program(dof.inputs.scale(), DofLayer::far));
+  for (const DofLayer layer : kLayers) {
+    lines.use(dof_hexagon_lines_program(dof.inputs.scale(), layer));
     read_common(lines, dof);
-    lines.read("layer_image", layer(from, near));
-    layer(upright, near) = lines.write("upright_image", layer_image(frame, dof, "dof_upright", near));
-    layer(both, near) = lines.write("both_image", layer_image(frame, dof, "dof_both", near));
-    dispatch_dof_list(lines, dof.tiles, GLOAM_DOF_FAR_FIRST + (near ? 1 : 0));
+    lines.read("layer_image", image(from, layer));
+    image(upright, layer) = lines.write("upright_image", layer_image(frame, dof, "dof_upright", layer));
+    image(both, layer) = lines.write("both_image", layer_image(frame, dof, "dof_both", layer));
+    dispatch_dof_list(lines, dof.tiles, list_of(layer, false));
   }
-  ComputePass rhombi(frame, "dof_hexagon_rhombi", dof_hexagon_rhombi_program(dof.inputs.scale(), false));
-  for (const bool near : {false, true}) {
-    rhombi.use(dof_hexagon_rhombi_program(dof.inputs.scale(), near));
+  ComputePass rhombi(frame, "dof_hexagon_rhombi", dof_hexagon_rhombi_program(dof.inputs.scale(), DofLayer::far));
+  for (const DofLayer layer : kLayers) {
+    rhombi.use(dof_hexagon_rhombi_program(dof.inputs.scale(), layer));
     read_common(rhombi, dof);
-    rhombi.read("upright_image", layer(upright, near));
-    rhombi.read("both_image", layer(both, near));
-    layer(blurred, near) = rhombi.write("blurred_image", layer_image(frame, dof, "dof_hexagon", near));
-    dispatch_dof_list(rhombi, dof.tiles, GLOAM_DOF_FAR_LAST + (near ? 1 : 0));
+    rhombi.read("upright_image", image(upright, layer));
+    rhombi.read("both_image", image(both, layer));
+    image(blurred, layer) = rhombi.write("blurred_image", layer_image(frame, dof, "dof_hexagon", layer));
+    dispatch_dof_list(rhombi, dof.tiles, list_of(layer, true));
   }
   return blurred;
 }
@@ -81,12 +99,12 @@ DofLayers add_line_pass(FrameBuilder& frame, const DofFrame& dof, const char* na
   DofLayers blurred;
   ComputePass pass(frame, name, dof_line_program(dof.inputs.knobs.cache, dof.inputs.scale(), false, line));
   const uvec2 groups = line_groups(dof.inputs.constants.layer_size, line.direction);
-  for (const bool near : {false, true}) {
-    pass.use(dof_line_program(dof.inputs.knobs.cache, dof.inputs.scale(), near, line));
+  for (const DofLayer layer : kLayers) {
+    pass.use(dof_line_program(dof.inputs.knobs.cache, dof.inputs.scale(), layer != DofLayer::far, line));
     read_common(pass, dof);
-    pass.read("layer_image", layer(from, near));
-    pass.read("other_image", layer(other, near));
-    layer(blurred, near) = pass.write("blurred_image", layer_image(frame, dof, name, near));
+    pass.read("layer_image", image(from, layer));
+    pass.read("other_image", image(other, layer));
+    image(blurred, layer) = pass.write("blurred_image", layer_image(frame, dof, name, layer));
     pass.dispatch(groups.x, groups.y);
   }
   return blurred;
@@ -106,15 +124,20 @@ DofLayers add_line_passes(FrameBuilder& frame, const DofFrame& dof, const DofLay
 ComputeProgram dof_prefilter_program(std::uint32_t scale, bool near) {
   return {shaders::depth_of_field::prefilter_comp, {{"kScale", scale}, {"kNear", near ? 1u : 0u}}};
 }
-ComputeProgram dof_round_program(std::uint32_t scale, bool near, bool columns) {
+ComputeProgram dof_round_program(std::uint32_t scale, DofLayer layer, bool columns) {
   return {shaders::depth_of_field::round_comp,
-          {{"kScale", scale}, {"kNear", near ? 1u : 0u}, {"kDirection", columns ? 1u : 0u}}};
+          {{"kScale", scale},
+           {"kNear", kernels(layer)},
+           {"kDirection", columns ? 1u : 0u},
+           {"kList", list_of(layer, columns)}}};
 }
-ComputeProgram dof_hexagon_lines_program(std::uint32_t scale, bool near) {
-  return {shaders::depth_of_field::hexagon_lines_comp, {{"kScale", scale}, {"kNear", near ? 1u : 0u}}};
+ComputeProgram dof_hexagon_lines_program(std::uint32_t scale, DofLayer layer) {
+  return {shaders::depth_of_field::hexagon_lines_comp,
+          {{"kScale", scale}, {"kNear", kernels(layer)}, {"kList", list_of(layer, false)}}};
 }
-ComputeProgram dof_hexagon_rhombi_program(std::uint32_t scale, bool near) {
-  return {shaders::depth_of_field::hexagon_rhombi_comp, {{"kScale", scale}, {"kNear", near ? 1u : 0u}}};
+ComputeProgram dof_hexagon_rhombi_program(std::uint32_t scale, DofLayer layer) {
+  return {shaders::depth_of_field::hexagon_rhombi_comp,
+          {{"kScale", scale}, {"kNear", kernels(layer)}, {"kList", list_of(layer, true)}}};
 }
 ComputeProgram dof_line_program(DofKnobs::Cache cache, std::uint32_t scale, bool near, const DofLine& line) {
   const std::uint32_t layer = near ? 1 : 0;
@@ -131,16 +154,17 @@ std::vector<ComputeProgram> dof_blur_programs(const DofKnobs& knobs, Bokeh bokeh
   const std::uint32_t scale = knobs.scale();
   const bool round = bokeh == Bokeh::round;
   std::vector<ComputeProgram> programs;
-  for (const bool near : {false, true}) {
+  for (const DofLayer layer : kLayers) {
     if (knobs.cache != DofKnobs::Cache::none) {
       const auto lines =
           round ? std::vector{kRows, kColumns} : std::vector{kUpwards, kRightwardsAndUp, kUpThenRight, kBothThenLeft};
-      for (const DofLine& line : lines) programs.push_back(dof_line_program(knobs.cache, scale, near, line));
+      for (const DofLine& line : lines)
+        programs.push_back(dof_line_program(knobs.cache, scale, layer != DofLayer::far, line));
     } else if (round) {
-      for (const bool columns : {false, true}) programs.push_back(dof_round_program(scale, near, columns));
+      for (const bool columns : {false, true}) programs.push_back(dof_round_program(scale, layer, columns));
     } else {
-      programs.push_back(dof_hexagon_lines_program(scale, near));
-      programs.push_back(dof_hexagon_rhombi_program(scale, near));
+      programs.push_back(dof_hexagon_lines_program(scale, layer));
+      programs.push_back(dof_hexagon_rhombi_program(scale, layer));
     }
   }
   return programs;
@@ -152,8 +176,9 @@ DofLayers add_dof_prefilter_pass(FrameBuilder& frame, const DofFrame& dof) {
   pass.read("dof", dof.inputs.block);
   pass.read("depth_image", dof.inputs.depth);
   pass.read("lit_image", frame.get<LitOutput>().color);
-  layers.far = pass.write("far_image", layer_image(frame, dof, "dof_layer", false));
-  layers.near = pass.write("near_image", layer_image(frame, dof, "dof_layer", true));
+  layers.far = pass.write("far_image", layer_image(frame, dof, "dof_layer", DofLayer::far));
+  layers.near = pass.write("near_image", layer_image(frame, dof, "dof_layer", DofLayer::near));
+  layers.beyond = pass.write("beyond_image", layer_image(frame, dof, "dof_layer", DofLayer::beyond));
   read_dof_lists(pass, dof.tiles);
   dispatch_dof_list(pass, dof.tiles, GLOAM_DOF_PREFILTER_FAR);
   pass.use(dof_prefilter_program(dof.inputs.scale(), true));

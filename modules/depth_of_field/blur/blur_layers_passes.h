@@ -2,12 +2,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "engine/render/declare/compute_pass.h"
 #include "modules/depth_of_field/frame.h"
 
 namespace gloam {
+
+/// A layer of DofLayers.
+enum class DofLayer : std::uint8_t { far, near, beyond };
 
 /// A filter of one line through workgroup memory (blur/line.glsl).
 struct DofLine {
@@ -18,9 +22,9 @@ struct DofLine {
 
 [[nodiscard]] ComputeProgram dof_prefilter_program(std::uint32_t scale, bool near);
 /// Without workgroup memory.
-[[nodiscard]] ComputeProgram dof_round_program(std::uint32_t scale, bool near, bool columns);
-[[nodiscard]] ComputeProgram dof_hexagon_lines_program(std::uint32_t scale, bool near);
-[[nodiscard]] ComputeProgram dof_hexagon_rhombi_program(std::uint32_t scale, bool near);
+[[nodiscard]] ComputeProgram dof_round_program(std::uint32_t scale, DofLayer layer, bool columns);
+[[nodiscard]] ComputeProgram dof_hexagon_lines_program(std::uint32_t scale, DofLayer layer);
+[[nodiscard]] ComputeProgram dof_hexagon_rhombi_program(std::uint32_t scale, DofLayer layer);
 /// cache: vectors or channels.
 [[nodiscard]] ComputeProgram dof_line_program(DofKnobs::Cache cache, std::uint32_t scale, bool near,
                                               const DofLine& line);

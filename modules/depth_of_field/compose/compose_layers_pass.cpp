@@ -24,6 +24,8 @@ void add_dof_compose_pass(FrameBuilder& frame, const DofFrame& dof, const DofLay
   pass.read("depth_image", dof.inputs.depth);
   pass.read("far_image", blurred.far);
   pass.read("near_image", blurred.near);
+  pass.read("beyond_image", blurred.beyond);
+  pass.read("reach_image", dof.tiles.reach);
   lit.color = pass.write("lit_image", lit.color);
   read_dof_lists(pass, dof.tiles);
   dispatch_dof_list(pass, dof.tiles, GLOAM_DOF_COMPOSE_FAR);

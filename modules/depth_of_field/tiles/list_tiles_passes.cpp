@@ -19,8 +19,8 @@ BufferRef words(FrameBuilder& frame, const char* name, std::uint64_t count) {
 
 ComputeProgram dof_bounds_program() { return {shaders::depth_of_field::bounds_comp}; }
 ComputeProgram dof_reach_program() { return {shaders::depth_of_field::reach_comp}; }
-ComputeProgram dof_list_program(std::uint32_t scale) {
-  return {shaders::depth_of_field::list_comp, {{"kScale", scale}}};
+ComputeProgram dof_list_program(std::uint32_t scale, Bokeh bokeh) {
+  return {shaders::depth_of_field::list_comp, {{"kScale", scale}, {"kRound", bokeh == Bokeh::round ? 1u : 0u}}};
 }
 
 DofTiles add_dof_tile_passes(FrameBuilder& frame, const DofInputs& inputs) {
@@ -43,7 +43,7 @@ DofTiles add_dof_tile_passes(FrameBuilder& frame, const DofInputs& inputs) {
   reach.dispatch_over(size);
 
   const std::uint64_t count = std::uint64_t{size.x} * size.y;
-  ComputePass list(frame, "dof_tile_lists", dof_list_program(inputs.scale()));
+  ComputePass list(frame, "dof_tile_lists", dof_list_program(inputs.scale(), inputs.bokeh));
   list.read("dof", inputs.block);
   list.read("reach_image", tiles.reach);
   tiles.lists = list.write("lists", empty_lists);

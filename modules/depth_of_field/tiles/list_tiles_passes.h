@@ -9,7 +9,7 @@ namespace gloam {
 
 [[nodiscard]] ComputeProgram dof_bounds_program();
 [[nodiscard]] ComputeProgram dof_reach_program();
-[[nodiscard]] ComputeProgram dof_list_program(std::uint32_t scale);
+[[nodiscard]] ComputeProgram dof_list_program(std::uint32_t scale, Bokeh bokeh);
 
 /// Finds the tiles in which something is blurred, and lists those in which each later pass runs.
 [[nodiscard]] DofTiles add_dof_tile_passes(FrameBuilder& frame, const DofInputs& inputs);

@@ -9,6 +9,8 @@
 
 layout(local_size_x = GLOAM_DOF_BLOCK, local_size_y = GLOAM_DOF_BLOCK) in;
 
+layout(constant_id = 3) const uint kList = 0u;  // runs in the tiles of this list
+
 layout(set = 0, binding = 0, scalar) uniform Dof { DofConstants dof; };
 layout(set = 0, binding = 1) uniform sampler2D reach_image;
 layout(set = 0, binding = 2) uniform sampler2D upright_image;
@@ -35,7 +37,7 @@ void filter_texel(ivec2 texel, int taps) {
 
 void main() {
   DofTile tile;
-  if (!listed_tile(uint(GLOAM_DOF_FAR_LAST) + kNear, tile)) return;
+  if (!listed_tile(kList, tile)) return;
   const int side = GLOAM_DOF_TILE / int(kScale);
   ivec2 first = tile.place * side + ivec2(gl_LocalInvocationID.xy);
   for (int y = 0; y < side; y += GLOAM_DOF_BLOCK)

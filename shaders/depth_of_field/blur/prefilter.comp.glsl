@@ -6,25 +6,27 @@
 
 // Makes the layers from the light. Far: the mean light of the texel's pixels behind the focus, each weighted by its
 // circle of confusion, and in alpha the mean circle as a share of the greatest radius; 0 where nothing is blurred.
-// Near: light of the pixels before the focus, multiplied by their share, which is in alpha. Light that is not finite
-// counts as absent.
+// Near: light of the pixels before the focus, multiplied by their share, which is in alpha. Beyond: all other light, in
+// the same way. Light that is not finite counts as absent.
 
 layout(local_size_x = GLOAM_DOF_BLOCK, local_size_y = GLOAM_DOF_BLOCK) in;
 layout(constant_id = 0) const uint kScale = 2u;  // pixels a texel
-layout(constant_id = 1) const uint kNear = 0u;   // 1: the near layer too
+layout(constant_id = 1) const uint kNear = 0u;   // 1: the layers near and beyond, too
 
 layout(set = 0, binding = 0, scalar) uniform Dof { DofConstants dof; };
 layout(set = 0, binding = 1) uniform sampler2D depth_image;
 layout(set = 0, binding = 2) uniform sampler2D lit_image;
 layout(set = 0, binding = 3, rgba16f) uniform writeonly image2D far_image;
 layout(set = 0, binding = 4, rgba16f) uniform writeonly image2D near_image;
+layout(set = 0, binding = 5, rgba16f) uniform writeonly image2D beyond_image;
 
-#define GLOAM_DOF_LIST_BINDING 5
+#define GLOAM_DOF_LIST_BINDING 6
 #include "shaders/depth_of_field/coc_api.glsl"
 #include "shaders/depth_of_field/list_api.glsl"
 
-vec3 far_light, near_light;
-float far_weight, far_squares, near_share;
+vec3 far_light;
+vec4 near, beyond;
+float far_weight, far_squares;
 
 void add(ivec2 pixel, float depth, float share) {
   vec3 light = texelFetch(lit_image, min(pixel, ivec2(dof.size) - 1), 0).rgb;
@@ -36,15 +38,16 @@ void add(ivec2 pixel, float depth, float share) {
   far_weight += weight;
   far_squares += weight * weight;
   if (kNear != 0u) {
-    float covered = counts ? share * layer_share(-coc) : 0.0;
-    near_light += covered * light;
-    near_share += covered;
+    float counted = counts ? share : 0.0, covered = layer_share(-coc);
+    near += counted * covered * vec4(light, 1.0);
+    beyond += counted * (1.0 - covered) * vec4(light, 1.0);
   }
 }
 
 void filter_texel(ivec2 texel) {
-  far_light = near_light = vec3(0.0);
-  far_weight = far_squares = near_share = 0.0;
+  far_light = vec3(0.0);
+  near = beyond = vec4(0.0);
+  far_weight = far_squares = 0.0;
   if (kScale == 2u) {
     ivec2 corner = 2 * texel;
     vec4 depths = textureGather(depth_image, vec2(corner + 1) * dof.inverse_size);
@@ -59,7 +62,9 @@ void filter_texel(ivec2 texel) {
   float scale = far_weight > 0.0 ? 1.0 / far_weight : 0.0;
   vec4 far = vec4(far_light * scale, far_squares * scale / dof.radius);
   imageStore(far_image, texel, min(far, vec4(65504.0)));
-  if (kNear != 0u) imageStore(near_image, texel, min(vec4(near_light, near_share), vec4(65504.0)));
+  if (kNear == 0u) return;
+  imageStore(near_image, texel, min(near, vec4(65504.0)));
+  imageStore(beyond_image, texel, min(beyond, vec4(65504.0)));
 }
 
 void main() {

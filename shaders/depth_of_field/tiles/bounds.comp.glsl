@@ -11,8 +11,9 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(set = 0, binding = 0, scalar) uniform Dof { DofConstants dof; };
 layout(set = 0, binding = 1) uniform sampler2D depth_image;
-layout(set = 0, binding = 2, rg32f) uniform writeonly image2D tile_image;  // greatest radius: near, far
-layout(set = 0, binding = 3, scalar) buffer Lists { DofList lists[]; };    // emptied
+layout(set = 0, binding = 2,
+       rg32f) uniform writeonly image2D tile_image;  // greatest radius: near, far; far −1: the near layer holds all
+layout(set = 0, binding = 3, scalar) buffer Lists { DofList lists[]; };  // emptied
 
 #include "shaders/depth_of_field/coc_api.glsl"
 
@@ -31,8 +32,12 @@ void main() {
       near = max(near, greatest(depths));
       far = min(far, least(depths));
     }
+  bool solid = layer_share(-circle_of_confusion(far)) >= 1.0;
   float before = max(-circle_of_confusion(near), 0.0), behind = max(circle_of_confusion(far), 0.0);
-  imageStore(
-      tile_image, ivec2(tile),
-      vec4(before < kInFocus ? 0.0 : before * dof.reach, behind < kInFocus ? 0.0 : behind * dof.reach, 0.0, 0.0));
+  imageStore(tile_image, ivec2(tile),
+             vec4(before < kInFocus ? 0.0 : before * dof.reach,
+                  solid               ? -1.0
+                  : behind < kInFocus ? 0.0
+                                      : behind * dof.reach,
+                  0.0, 0.0));
 }

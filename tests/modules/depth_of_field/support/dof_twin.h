@@ -24,9 +24,10 @@ class DofTwin {
   /// The light after the module.
   [[nodiscard]] std::vector<dvec4> light() const {
     const Layer far = blurred(filtered(false), false), near = blurred(filtered(true), true);
+    const Layer beyond = blurred(filtered(true, true), true);
     std::vector<dvec4> result;
     for (int y = 0; y < static_cast<int>(in_.height); ++y)
-      for (int x = 0; x < static_cast<int>(in_.width); ++x) result.push_back(composed(x, y, far, near));
+      for (int x = 0; x < static_cast<int>(in_.width); ++x) result.push_back(composed(x, y, far, near, beyond));
     return result;
   }
 
@@ -52,7 +53,7 @@ class DofTwin {
   }
   static dvec4 rounded(const dvec4& v) { return dvec4(dof_light(dof_half(vec4(v)))); }
 
-  [[nodiscard]] Layer filtered(bool near) const {
+  [[nodiscard]] Layer filtered(bool near, bool beyond = false) const {
     Layer layer;
     for (int y = 0; y < rows_; ++y)
       for (int x = 0; x < columns_; ++x) {
@@ -62,7 +63,8 @@ class DofTwin {
           for (int dx = 0; dx < scale_; ++dx) {
             const int px = x * scale_ + dx, py = y * scale_ + dy;
             const double circle = coc(px, py);
-            const double weight = near ? share(-circle) / (scale_ * scale_) : circle >= 0.5 ? circle : 0.0;
+            const double before = beyond ? 1.0 - share(-circle) : share(-circle);
+            const double weight = near ? before / (scale_ * scale_) : circle >= 0.5 ? circle : 0.0;
             sum += weight * lit(px, py);
             weights += weight;
             squares += weight * weight;
@@ -201,27 +203,36 @@ class DofTwin {
     });
   }
 
-  /// A layer at a pixel, interpolated. Of the far layer, light is weighted by alpha and then divided by it.
-  [[nodiscard]] dvec4 shown(const Layer& layer, bool near, int x, int y) const {
+  /// A layer at a pixel, interpolated. Of the far layer, light is weighted by alpha and then divided by it. in_tile:
+  /// only between texels of the pixel's tile.
+  [[nodiscard]] dvec4 shown(const Layer& layer, bool near, int x, int y, bool in_tile = false) const {
     const double u = (x + 0.5) / scale_ - 0.5, v = (y + 0.5) / scale_ - 0.5;
     const int left = static_cast<int>(std::floor(u)), top = static_cast<int>(std::floor(v));
     dvec4 sum(0.0);
     for (int dy = 0; dy < 2; ++dy)
       for (int dx = 0; dx < 2; ++dx) {
         const double weight = (dx == 0 ? 1.0 - (u - left) : u - left) * (dy == 0 ? 1.0 - (v - top) : v - top);
-        const dvec4 value = texel(layer, left + dx, top + dy);
+        const int side = kTile / scale_, first_x = x / kTile * side, first_y = y / kTile * side;
+        const int column = in_tile ? std::clamp(left + dx, first_x, first_x + side - 1) : left + dx;
+        const int row = in_tile ? std::clamp(top + dy, first_y, first_y + side - 1) : top + dy;
+        const dvec4 value = texel(layer, column, row);
         sum += weight * (near ? value : dvec4(dvec3(value) * value.w, value.w));
       }
     if (near || sum.w <= 0.0) return sum;
     return {dvec3(sum) / sum.w, sum.w};
   }
 
-  [[nodiscard]] dvec4 composed(int x, int y, const Layer& far, const Layer& near) const {
+  [[nodiscard]] dvec4 composed(int x, int y, const Layer& far, const Layer& near, const Layer& beyond) const {
     const dvec4 behind = shown(far, false, x, y), before = shown(near, true, x, y);
     const double blurred = behind.w > 0.0 ? share(coc(x, y)) : 0.0;
     dvec3 light = lit(x, y) * (1.0 - blurred) + dvec3(behind) * blurred;
-    const double covered = std::min(2.0 * before.w, 1.0);
-    if (before.w > 0.0) light = light * (1.0 - covered) + dvec3(before) * (covered / before.w);
+    if (before.w > 0.0) {
+      const dvec4 hidden = shown(beyond, true, x, y, true);
+      const double own = share(-coc(x, y));
+      const dvec4 filled = hidden.w > 1e-4 ? hidden : before;
+      light = (1.0 - own) * light + own * dvec3(filled) / filled.w;
+      light = dvec3(before) + (1.0 - before.w) * light;
+    }
     return dvec4(light, 1.0);
   }
 
