@@ -75,7 +75,8 @@ class CostSubject {
   [[nodiscard]] virtual Result<FramePictures> draw_reference(const ReferenceInfo& reference, const FramePictures& frame,
                                                              std::uint32_t samples) = 0;
   /// Calls reference.distance for the last frame.
-  [[nodiscard]] virtual Result<std::optional<MovedDistance>> measure_distance(const ReferenceInfo& reference) = 0;
+  [[nodiscard]] virtual Result<std::optional<MovedDistance>> measure_distance(const ReferenceInfo& reference,
+                                                                              std::uint32_t samples) = 0;
   /// Why the knob changes nothing in the last frame, in a few words; empty: it is not known, or it may change
   /// something.
   [[nodiscard]] virtual std::string no_effect_reason(const Knob& knob) = 0;

@@ -138,7 +138,7 @@ Status KnobMeasurement::judge_distance(LedgerRow& row) {
   if (!reference_ || !reference_->distance) return {};
   row.reference_kind = reference_->kind;
   row.reference_name = reference_->name;
-  const auto distance = subject_.measure_distance(*reference_);
+  const auto distance = subject_.measure_distance(*reference_, request_.header.samples);
   if (!distance) return distance.error();
   if (*distance) row.counted = CountedError{(*distance)->mean, reference_->unit, (*distance)->p99};
   return {};

@@ -15,7 +15,7 @@ namespace gloam {
 std::vector<KnobOverride> exact_settings(const KnobRegistry& knobs) {
   std::vector<KnobOverride> settings;
   for (const Knob& knob : knobs.knobs()) {
-    if (knob.is_look) continue;
+    if (knob.is_look || knob.same_picture) continue;
     settings.push_back({knob.name, knob.exact.empty() ? value_text(knob, knob.default_number) : knob.exact});
   }
   return settings;
@@ -25,6 +25,9 @@ WholeFrame::WholeFrame(const CostRequest& request, CostSubject& subject) : reque
 
 Status WholeFrame::prepare() {
   if (reference_) return {};
+  // A subject may draw many frames before its first one, until memory has settled: not with exact values, which are
+  // slow.
+  GLOAM_TRY(subject_.draw(0));
   KnobOverrides overrides(subject_.knobs());
   GLOAM_TRY(overrides.set(exact_settings(subject_.knobs())));
   const ReferenceCache cache(request_.folder + "/references");

@@ -10,8 +10,8 @@
 
 namespace gloam {
 
-/// The values of the whole-frame reference: each knob's exact value, or its default if it has none. Knobs that are
-/// looks are left out: they keep the user's value.
+/// The values of the whole-frame reference: each knob's exact value, or its default if it has none. Looks are left out,
+/// and knobs whose values all draw one picture: they keep the user's value.
 [[nodiscard]] std::vector<KnobOverride> exact_settings(const KnobRegistry& knobs);
 
 /// The whole-frame reference of a ledger: drawn once, and kept in the folder of references.

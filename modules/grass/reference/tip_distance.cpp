@@ -111,6 +111,7 @@ Result<std::optional<MovedDistance>> measure_tips(const ReferenceInput& input) {
     for (const VisiblePatch& patch : visible->patches) patches.push_back(patch.patch);
   std::ranges::sort(patches);
   TipConditions conditions;
+  conditions.most_blades = std::clamp(2 * input.samples, 64u, 512u);
   conditions.first_step = world.resource<StepClock>().first_step();
   conditions.colliders = world.resource<GrassColliders>().colliders;
   world.view<const Wind, const WorldTransform>().each([&](const Wind& wind, const WorldTransform& transform) {

@@ -19,6 +19,7 @@ namespace gloam {
 namespace {
 
 constexpr std::uint32_t kMostSamples = 64;
+constexpr std::uint32_t kRaysPerFrame = 4;
 
 /// The point of a pixel that the sample shows, from the pixel's centre; pixels.
 glm::dvec2 sample_point(std::uint32_t index) {
@@ -36,22 +37,37 @@ LensPoint shifted(const RenderView& view, const glm::dvec2& pixels) {
   return {view.camera_entity, -kFocus * offset, kFocus};
 }
 
-std::uint32_t samples_of(const ReferenceInput& input) { return std::clamp(input.samples, 1u, kMostSamples); }
+/// Each sample is a frame, so there are fewer than of rays.
+std::uint32_t samples_of(const ReferenceInput& input) {
+  return std::clamp(input.samples / kRaysPerFrame, 1u, kMostSamples);
+}
 
 /// Everything that the picture is computed from: the frame, its view, all knobs and the number of samples.
-std::string identity_of(const ReferenceInput& input) {
+std::string identity_of(const ReferenceInput& input, std::uint32_t samples) {
   Hasher hasher;
   hasher.bytes(std::as_bytes(std::span(input.frame.picture.rgba)));
   hasher.bytes(std::as_bytes(std::span(input.frame.linear.rgba)));
   hasher.bytes_of(input.view.position).bytes_of(input.view.view_from_relative).bytes_of(input.view.clip_from_view);
   std::string identity = "supersampled 1, frame " + std::to_string(hasher.digest()) + ", " +
                          std::to_string(input.view.width) + "x" + std::to_string(input.view.height) + ", samples " +
-                         std::to_string(samples_of(input));
+                         std::to_string(samples);
   for (const Knob& knob : input.knobs.knobs()) identity += " " + knob.name + "=" + input.knobs.text(knob);
   return identity;
 }
 
-/// Sets the picture to the mean of the samples.
+Status keep(const ReferenceInput& input, std::uint32_t samples, const Picture& mean) {
+  if (input.store == nullptr) return {};
+  return input.store->save(identity_of(input, samples), std::string(mean.rgba.begin(), mean.rgba.end()));
+}
+
+/// sums: linear light, 0…1, of `samples` pictures.
+void set_mean(const std::vector<double>& sums, std::uint32_t samples, Picture& mean) {
+  for (std::size_t at = 0; at < sums.size(); ++at)
+    mean.rgba[at] =
+        at % 4 == 3 ? 255 : static_cast<std::uint8_t>(std::lround(255.0 * linear_to_srgb(sums[at] / samples)));
+}
+
+/// Sets the picture to the mean of the samples. Keeps it, and that of half of the samples, which is asked for next.
 Status accumulate(const ReferenceInput& input, Picture& mean) {
   const std::uint32_t samples = samples_of(input);
   std::vector<double> linear(256);
@@ -72,10 +88,10 @@ Status accumulate(const ReferenceInput& input, Picture& mean) {
     if (frame->picture.rgba.size() != sums.size()) return Error{ErrorKind::usage, "a frame was drawn in another size"};
     for (std::size_t at = 0; at < sums.size(); ++at) sums[at] += linear[frame->picture.rgba[at]];
     if (input.progress) input.progress(i + 1, samples);
+    if (i + 1 != samples && 2 * (i + 1) != samples) continue;
+    set_mean(sums, i + 1, mean);
+    GLOAM_TRY(keep(input, i + 1, mean));
   }
-  for (std::size_t at = 0; at < sums.size(); ++at)
-    mean.rgba[at] =
-        at % 4 == 3 ? 255 : static_cast<std::uint8_t>(std::lround(255.0 * linear_to_srgb(sums[at] / samples)));
   return {};
 }
 
@@ -83,7 +99,7 @@ Status accumulate(const ReferenceInput& input, Picture& mean) {
 
 Result<FramePictures> draw_supersampled(const ReferenceInput& input) {
   if (!input.redraw) return Error{ErrorKind::usage, "a supersampled picture needs a frame that can be drawn again"};
-  const std::string identity = identity_of(input);
+  const std::string identity = identity_of(input, samples_of(input));
   FramePictures mean;
   mean.picture = input.frame.picture;
   if (const auto kept = input.store == nullptr ? std::nullopt : input.store->load(identity);
@@ -92,8 +108,6 @@ Result<FramePictures> draw_supersampled(const ReferenceInput& input) {
     return mean;
   }
   GLOAM_TRY(accumulate(input, mean.picture));
-  const auto& bytes = mean.picture.rgba;
-  if (input.store != nullptr) GLOAM_TRY(input.store->save(identity, std::string(bytes.begin(), bytes.end())));
   return mean;
 }
 

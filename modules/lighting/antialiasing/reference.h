@@ -10,7 +10,8 @@ namespace gloam {
 /// a pixel's area.
 struct PointSampledFrame {};
 
-/// The mean of pictures whose pixels were sampled at different points, in linear light. Draws up to 64 frames.
+/// The mean of pictures whose pixels were sampled at different points, in linear light. Draws a frame for
+/// every four of the input's samples, from 1 to 64.
 [[nodiscard]] Result<FramePictures> draw_supersampled(const ReferenceInput& input);
 
 }  // namespace gloam

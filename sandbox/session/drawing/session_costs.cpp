@@ -138,9 +138,10 @@ Result<FramePictures> SessionCosts::draw_reference(const ReferenceInfo& referenc
   return full_size(*pictures);
 }
 
-Result<std::optional<MovedDistance>> SessionCosts::measure_distance(const ReferenceInfo& reference) {
+Result<std::optional<MovedDistance>> SessionCosts::measure_distance(const ReferenceInfo& reference,
+                                                                    std::uint32_t samples) {
   const FramePictures none;
-  return reference.distance(input_of(none, 1));
+  return reference.distance(input_of(none, samples));
 }
 
 std::string SessionCosts::no_effect_reason(const Knob& knob) {

@@ -28,7 +28,8 @@ class SessionCosts final : public CostSubject {
   [[nodiscard]] Result<FramePictures> read() override;
   [[nodiscard]] Result<FramePictures> draw_reference(const ReferenceInfo& reference, const FramePictures& frame,
                                                      std::uint32_t samples) override;
-  [[nodiscard]] Result<std::optional<MovedDistance>> measure_distance(const ReferenceInfo& reference) override;
+  [[nodiscard]] Result<std::optional<MovedDistance>> measure_distance(const ReferenceInfo& reference,
+                                                                      std::uint32_t samples) override;
   [[nodiscard]] std::string no_effect_reason(const Knob& knob) override;
 
  private:

@@ -65,7 +65,7 @@ class FakeSubject final : public CostSubject {
     return reference(frame, samples);
   }
 
-  [[nodiscard]] Result<std::optional<MovedDistance>> measure_distance(const ReferenceInfo&) override {
+  [[nodiscard]] Result<std::optional<MovedDistance>> measure_distance(const ReferenceInfo&, std::uint32_t) override {
     return distance ? distance(brightness()) : std::nullopt;
   }
   [[nodiscard]] std::string no_effect_reason(const Knob& knob) override { return reasons[knob.name]; }

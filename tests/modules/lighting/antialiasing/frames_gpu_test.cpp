@@ -43,7 +43,7 @@ struct AntialiasedFrame : test::LitSceneTest {
     return picture();
   }
   /// The reference picture of the frame as it was drawn last.
-  [[nodiscard]] Picture supersampled(std::uint32_t samples) {
+  [[nodiscard]] Picture supersampled(std::uint32_t frames) {
     set("lighting.antialiasing", "off");
     draw();
     const FramePictures frame{linear(), picture()};
@@ -51,7 +51,7 @@ struct AntialiasedFrame : test::LitSceneTest {
                                .view = world.view_resource<RenderView>(settings.id),
                                .knobs = renderer->knobs(),
                                .frame = frame,
-                               .samples = samples,
+                               .samples = 4 * frames,
                                .executor = *executor,
                                .redraw = [this](const auto& change, const auto& restore) -> Result<FramePictures> {
                                  change(world);

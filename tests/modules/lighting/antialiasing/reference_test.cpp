@@ -28,7 +28,7 @@ class KeptPictures final : public ReferenceStore {
   mutable std::map<std::string, std::string> kept;
 };
 
-/// A picture of one pixel that is white in every fourth sample and black in the others.
+/// A picture of one pixel that is white in every fourth frame and black in the others. One frame for four samples.
 class Supersampled : public ::testing::Test {
  protected:
   Supersampled() {
@@ -65,28 +65,30 @@ class Supersampled : public ::testing::Test {
 };
 
 TEST_F(Supersampled, is_the_mean_of_light_not_of_codes) {
-  EXPECT_EQ(draw(16), std::lround(255.0 * linear_to_srgb(0.25)));
+  EXPECT_EQ(draw(64), std::lround(255.0 * linear_to_srgb(0.25)));
   EXPECT_EQ(drawn_, 16u);
 }
 
 TEST_F(Supersampled, is_kept_for_the_same_frame_knobs_and_samples_alone) {
-  const std::uint8_t mean = draw(16);
-  EXPECT_EQ(draw(16), mean);
+  const std::uint8_t mean = draw(64);
+  EXPECT_EQ(draw(64), mean);
   EXPECT_EQ(drawn_, 16u) << "taken from the store";
-  draw(8);
-  EXPECT_EQ(drawn_, 24u) << "other samples";
+  draw(32);
+  EXPECT_EQ(drawn_, 16u) << "half of the samples were kept on the way";
+  draw(20);
+  EXPECT_EQ(drawn_, 21u) << "other samples";
   knobs_.set(kAntialiasing, Antialiasing::smaa);
-  draw(16);
-  EXPECT_EQ(drawn_, 40u) << "another knob";
+  draw(64);
+  EXPECT_EQ(drawn_, 37u) << "another knob";
   frame_.linear.rgba[0] = 1e-3f;
-  draw(16);
-  EXPECT_EQ(drawn_, 56u) << "other light, the same picture";
+  draw(64);
+  EXPECT_EQ(drawn_, 53u) << "other light, the same picture";
   view_.position.x += 1e-9;
-  draw(16);
-  EXPECT_EQ(drawn_, 72u) << "another place";
+  draw(64);
+  EXPECT_EQ(drawn_, 69u) << "another place";
   for (auto& [identity, bytes] : store_.kept) bytes += "x";
-  draw(16);
-  EXPECT_EQ(drawn_, 88u) << "kept bytes of another size";
+  draw(64);
+  EXPECT_EQ(drawn_, 85u) << "kept bytes of another size";
 }
 
 }  // namespace
