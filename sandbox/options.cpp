@@ -146,7 +146,7 @@ std::vector<CommandApp> add_commands(CLI::App& root, Options& options, RawTexts&
   cost->add_option(
           "--points", options.points,
           "Combinations of values to measure, with the default and the exact setting; 0: none; default: 24, or "
-          "10 with --quick")
+          "10 with --quick, and 0 with several cameras or times")
       ->type_name("N");
   CLI::App* bench = add(Command::bench, "bench", "Run benchmarks: the papers' tables and the CPU systems");
   bench->add_option("NAME", options.names, "Benchmarks to run: the id NAME, or all ids that begin with NAME and a dot");

@@ -248,6 +248,9 @@ Result<MeasuredCameras> measure_cameras(const Options& options, const std::vecto
       for (const Knob& knob : session.renderer->knobs().knobs())
         measured.knobs.push_back({knob.name, knob.meaning, value_text(knob, knob.default_number)});
     }
+    if (cameras.size() > 1 && options.points.value_or(0) > 0)
+      return Error{ErrorKind::usage, "--points measures combinations in one camera and at one time"};
+    if (cameras.size() > 1) cameras[i].points = 0;
     GLOAM_TRY(ensure_baked(session, cameras[i], context.log, &context.console));
     SessionCosts costs(session, cameras[i]);
     progress.begin_camera(i, cameras.size(), cameras[i]);

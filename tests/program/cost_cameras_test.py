@@ -44,6 +44,7 @@ class CostCameras(ProgramCase):
     def test_the_ledger_is_the_worst_of_its_cameras_and_has_each(self):
         run = self.expect(0, "cost", "two.gltf", *TINY, "--cameras", "dark,lit", "--out", "both")
         self.assertIn("worst of 2 cameras", run.stdout)
+        self.assertNotIn("combinations", run.stdout)
         ledger = self.read_json("both/ledger.json")
         self.assertEqual((ledger["camera"], [camera["camera"] for camera in ledger["cameras"]]), ("dark,lit", ["dark", "lit"]))
         worst, (dark, lit) = self.check_worst(ledger)
@@ -81,6 +82,7 @@ class CostCameras(ProgramCase):
                             ("lit,lit", "names 'lit' twice")):
             self.expect(2, "cost", "two.gltf", *TINY, "--cameras", names, "--out", "none", says=says)
         self.assertFalse(list(self.folder.glob("none/measurements/*")))
+        self.expect(2, "cost", "two.gltf", *TINY, "--cameras", "dark,lit", "--points", "3", "--out", "none", says="in one camera")
         self.expect(2, "cost", "two.gltf", *TINY, "--cameras", "lit", "--camera", "lit", "--out", "none", says="not both")
 
 
