@@ -60,7 +60,7 @@ class CostCameras(ProgramCase):
         self.assertIn("the worst of 2 cameras", page)
 
         # Each camera's rows are those of a run with that camera alone, and resume each other.
-        run = self.expect(0, "cost", "two.gltf", *TINY, "--camera", "lit", "--out", "both")
+        run = self.expect(0, "cost", "two.gltf", *TINY, "--points", "0", "--camera", "lit", "--out", "both")
         self.assertIn(f"{len(lit)} of {len(lit)} rows were measured before", run.stdout)
         alone = self.read_json("both/ledger.json")
         self.assertEqual(self.rows(alone["rows"]), lit)
