@@ -45,7 +45,8 @@ inline constexpr ChoiceKnob<double> kViewScale{
         "size by a Lanczos filter on the CPU, whose time is not counted; play has --scale",
     .choices = {{"1", 1.0}, {"0.85", 0.85}, {"0.7", 0.7}, {"0.5", 0.5}, {"0.35", 0.35}},
     .default_value = 1.0,
-    .exact = 1.0};
+    .exact = 1.0,
+    .scales_frame = true};
 
 void add_program_knobs(KnobRegistry& knobs);
 

@@ -152,6 +152,7 @@ struct ChoiceKnob {
   bool same_picture = false;
   std::string_view only_with{};
   bool is_look = false;
+  bool scales_frame = false;  ///< Knob::scales_frame
 
   [[nodiscard]] constexpr const T& value_of(double number) const {
     const bool known = number >= 0.0 && number < static_cast<double>(choices.size());
@@ -223,6 +224,7 @@ template <class K>
   if (reference.exact) knob.exact = text_of(reference, *reference.exact);
   knob.taste = reference.taste;
   knob.is_look = reference.is_look || !reference.taste.empty();
+  if constexpr (requires { reference.scales_frame; }) knob.scales_frame = reference.scales_frame;
   knob.same_picture = reference.same_picture;
   knob.only_with = reference.only_with;
   return knob;

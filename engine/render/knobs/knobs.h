@@ -40,6 +40,8 @@ struct Knob {
   std::string only_with;
   /// The whole-frame reference keeps the user's value, and combinations of values do not vary it. Every taste is one.
   bool is_look = false;
+  /// It changes how many pixels the whole frame has: its times multiply those of other knobs, which add.
+  bool scales_frame = false;
 };
 
 /// A knob's value as text (KnobRegistry::set), for one view or while a measure counts. override_of() makes one.

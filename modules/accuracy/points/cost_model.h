@@ -26,9 +26,8 @@ struct Cost {
 /// A row is a frame with the user's settings and one other value. Its ratio less the default's is what the value adds
 /// to the time; the square of its whole-frame error less the square of the default's is what it adds to the squared
 /// error (errors of independent effects add as variances do). Both may be negative. The model adds them over the
-/// changed knobs. A difference in time that is not significant counts as none, because the best of many would be the
-/// luckiest;
-/// so does a difference in error that nobody can see.
+/// changed knobs; ratios of knobs that scale the frame multiply the sum. A difference in time that is not significant
+/// counts as none, because the best of many would be the luckiest; so does a difference in error that nobody can see.
 class CostModel {
  public:
   struct Option {
@@ -38,6 +37,7 @@ class CostModel {
   struct VariedKnob {
     std::string name;
     std::vector<Option> options;  ///< the first is the user's value
+    bool scales_frame = false;    ///< Knob::scales_frame
   };
 
   /// rows: of a finished ledger. knobs: with the user's values. Knobs without effect, looks and wrong values are not
@@ -45,15 +45,24 @@ class CostModel {
   CostModel(const std::vector<LedgerRow>& rows, const KnobRegistry& knobs);
 
   [[nodiscard]] const std::vector<VariedKnob>& knobs() const { return knobs_; }
+  /// The changes without those of knobs that change nothing together with the others (Knob::only_with).
+  [[nodiscard]] Changes folded(Changes changes) const;
+  /// changes: folded.
   [[nodiscard]] Cost predict(const Changes& changes) const;
   /// The cost of `changes` with one more change, from its measured cost.
   [[nodiscard]] Cost predict_from(const Cost& measured, const Changes& changes, const VariedKnob& knob,
                                   const Option& option) const;
-  /// The predicted front, the fastest first.
+  /// The predicted front of folded combinations, the fastest first.
   [[nodiscard]] std::vector<Changes> front() const;
 
  private:
   [[nodiscard]] Cost added_by(const VariedKnob& knob, const Changes& changes) const;
+  /// Ratio of the knobs that scale the frame.
+  [[nodiscard]] double scale(const Changes& changes) const;
+  /// All combinations that no other one beats if all added values hold, unfolded.
+  [[nodiscard]] std::vector<Changes> candidates() const;
+
+  KnobRegistry users_;
   std::vector<VariedKnob> knobs_;
   double users_squared_error_ = 0.0;
 };

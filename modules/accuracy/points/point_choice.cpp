@@ -58,7 +58,7 @@ std::optional<Proposal> best_neighbour(const CostModel& model, const std::vector
         if (!segment.holds(cost.ratio)) continue;
         const double above_line = segment.above_line(cost);
         if (above_line > std::log(kMostAboveFront) || (best && above_line >= best->above_line)) continue;
-        Changes changes = changed(end->changes, knob, option);
+        Changes changes = model.folded(changed(end->changes, knob, option));
         if (std::ranges::find(measured, changes, &MeasuredCost::changes) != measured.end()) continue;
         best = Proposal{std::move(changes), above_line};
       }

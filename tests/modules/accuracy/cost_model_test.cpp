@@ -5,8 +5,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "modules/accuracy/points/point_choice.h"
 
@@ -79,6 +81,59 @@ TEST(CostModel, counts_from_the_users_value) {
   const CostModel model(rows_abc(), knobs);
   EXPECT_DOUBLE_EQ(model.predict({}).ratio, 1.0);
   EXPECT_DOUBLE_EQ(model.predict({{"k.a", "high"}}).ratio, 1.5 / 0.8);
+}
+
+/// k.b halves the frame's pixels; k.c works only while k.a is not low.
+KnobRegistry knobs_that_depend() {
+  KnobRegistry knobs;
+  knobs.add({.name = "k.a", .module = "k", .choices = {"low", "mid", "high"}, .default_number = 1});
+  knobs.add(
+      {.name = "k.b", .module = "k", .choices = {"low", "mid", "high"}, .default_number = 1, .scales_frame = true});
+  knobs.add({.name = "k.c",
+             .module = "k",
+             .choices = {"low", "mid", "high"},
+             .default_number = 1,
+             .only_with = "k.a=mid|high"});
+  return knobs;
+}
+
+TEST(CostModel, a_knob_that_scales_the_frame_multiplies_the_others) {
+  const CostModel model(rows_abc(), knobs_that_depend());
+  EXPECT_DOUBLE_EQ(model.predict({{"k.a", "low"}, {"k.b", "low"}}).ratio, 0.8 * 0.7);
+  EXPECT_DOUBLE_EQ(model.predict({{"k.a", "high"}, {"k.b", "low"}, {"k.c", "high"}}).ratio, 2.5 * 0.7);
+  const Cost measured = {.ratio = 0.6, .squared_error = 0.01};
+  const Changes scaled = {{"k.b", "low"}};
+  EXPECT_DOUBLE_EQ(model.predict_from(measured, scaled, model.knobs()[0], model.knobs()[0].options[1]).ratio,
+                   0.6 - 0.2 * 0.7);
+  EXPECT_DOUBLE_EQ(model.predict_from(measured, scaled, model.knobs()[1], model.knobs()[1].options[0]).ratio,
+                   0.6 / 0.7);
+}
+
+TEST(CostModel, leaves_out_changes_that_the_others_make_pointless) {
+  const CostModel model(rows_abc(), knobs_that_depend());
+  EXPECT_EQ(model.folded({{"k.a", "low"}, {"k.c", "high"}}), (Changes{{"k.a", "low"}}));
+  EXPECT_EQ(model.folded({{"k.a", "high"}, {"k.c", "high"}}), (Changes{{"k.a", "high"}, {"k.c", "high"}}));
+  std::set<Changes> seen;
+  double last = 0.0;
+  for (const Changes& changes : model.front()) {
+    EXPECT_EQ(model.folded(changes), changes);
+    EXPECT_TRUE(seen.insert(changes).second) << "each is there once";
+    EXPECT_GT(model.predict(changes).ratio, last);
+    last = model.predict(changes).ratio;
+  }
+  // The front is that of all folded combinations.
+  for (const std::string a : {"low", "mid", "high"})
+    for (const std::string b : {"low", "mid", "high"})
+      for (const std::string c : {"low", "mid", "high"}) {
+        const Cost cost = model.predict(model.folded({{"k.a", a}, {"k.b", b}, {"k.c", c}}));
+        EXPECT_TRUE(std::ranges::any_of(seen,
+                                        [&](const Changes& kept) {
+                                          const Cost other = model.predict(kept);
+                                          return other.ratio <= cost.ratio + 1e-12 &&
+                                                 other.squared_error <= cost.squared_error + 1e-12;
+                                        }))
+            << a << b << c;
+      }
 }
 
 TEST(CostModel, its_front_is_that_of_all_combinations) {

@@ -5,28 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <map>
 #include <string>
-#include <string_view>
 
 #include "engine/math/srgb.h"
 #include "modules/lighting/outputs.h"
+#include "tests/support/memory_store.h"
 
 namespace gloam {
 namespace {
-
-class KeptPictures final : public ReferenceStore {
- public:
-  [[nodiscard]] std::optional<std::string> load(const std::string& identity) const override {
-    const auto found = kept.find(identity);
-    return found == kept.end() ? std::nullopt : std::optional(found->second);
-  }
-  [[nodiscard]] Status save(const std::string& identity, std::string_view bytes) const override {
-    kept[identity] = bytes;
-    return {};
-  }
-  mutable std::map<std::string, std::string> kept;
-};
 
 /// A picture of one pixel that is white in every fourth frame and black in the others. One frame for four samples.
 class Supersampled : public ::testing::Test {
@@ -60,7 +46,7 @@ class Supersampled : public ::testing::Test {
   KnobRegistry knobs_;
   FramePictures frame_;
   std::unique_ptr<JobExecutor> executor_ = make_serial_executor();
-  KeptPictures store_;
+  test::MemoryStore store_;
   std::uint32_t drawn_ = 0;
 };
 

@@ -5,10 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <map>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -16,23 +13,10 @@
 #include "modules/particles/emitters/strongest_lights.h"
 #include "tests/modules/particles/bake/bake_scene.h"
 #include "tests/modules/particles/support/particle_stage.h"
+#include "tests/support/memory_store.h"
 
 namespace gloam::test {
 namespace {
-
-/// Keeps results in memory.
-class MemoryStore final : public ReferenceStore {
- public:
-  [[nodiscard]] std::optional<std::string> load(const std::string& identity) const override {
-    const auto found = kept.find(identity);
-    return found == kept.end() ? std::nullopt : std::optional(found->second);
-  }
-  [[nodiscard]] Status save(const std::string& identity, std::string_view bytes) const override {
-    kept[identity] = std::string(bytes);
-    return {};
-  }
-  mutable std::map<std::string, std::string> kept;
-};
 
 class TracedParticles : public ParticleTest {
  protected:

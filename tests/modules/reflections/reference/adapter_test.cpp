@@ -4,28 +4,16 @@
 
 #include <gtest/gtest.h>
 
-#include <map>
 #include <string>
 
 #include "tests/modules/reflections/reference/reflection_scene.h"
+#include "tests/support/memory_store.h"
 
 namespace gloam {
 namespace {
 
+using test::MemoryStore;
 using test::ReflectionScene;
-
-class MemoryStore final : public ReferenceStore {
- public:
-  [[nodiscard]] std::optional<std::string> load(const std::string& identity) const override {
-    const auto found = kept.find(identity);
-    return found == kept.end() ? std::nullopt : std::optional(found->second);
-  }
-  [[nodiscard]] Status save(const std::string& identity, std::string_view bytes) const override {
-    kept[identity] = bytes;
-    return {};
-  }
-  mutable std::map<std::string, std::string> kept;
-};
 
 /// A scene with the input of a reference, whose frame is a grey picture.
 struct AdaptedScene : ReflectionScene {

@@ -5,30 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <map>
 #include <string>
 
 #include "modules/shadows/module.h"
 #include "tests/modules/shadows/support/visibility_scene.h"
+#include "tests/support/memory_store.h"
 
 namespace gloam {
 namespace {
-
-class MemoryStore final : public ReferenceStore {
- public:
-  [[nodiscard]] std::optional<std::string> load(const std::string& identity) const override {
-    const auto found = kept.find(identity);
-    if (found == kept.end()) return std::nullopt;
-    ++loads;
-    return found->second;
-  }
-  [[nodiscard]] Status save(const std::string& identity, std::string_view bytes) const override {
-    kept[identity] = bytes;
-    return {};
-  }
-  mutable std::map<std::string, std::string> kept;
-  mutable int loads = 0;
-};
 
 class ShadowReference : public testing::Test {
  protected:
@@ -72,7 +56,7 @@ TEST_F(ShadowReference, bytes_give_the_same_visibility_back) {
 }
 
 TEST_F(ShadowReference, what_was_traced_once_is_taken_from_the_store) {
-  const MemoryStore store;
+  const test::MemoryStore store;
   ReferenceInput what = input();
   what.store = &store;
   const auto first = find_visibility(what);
