@@ -248,9 +248,9 @@ class ReportPage(ProgramCase):
         self.check_recommendation(points)
 
     def check_recommendation(self, points):
-        """The first screen has the fastest point whose error is below 0.01 or that of the user's, or else below 0.03."""
+        """The first screen has the fastest point of the front whose error is below 0.01 or that of the user's, or else below 0.03."""
         users = next(float(point["flip_mean"]) for point in points if point["default"] == "1")
-        faster = [point for point in points if float(point["ratio_high"]) < 1.0]
+        faster = [point for point in points if float(point["ratio_high"]) < 1.0 and point["front"] == "1"]
         right = [point for point in faster if float(point["flip_mean"]) < 0.01 or float(point["flip_mean"]) <= users] or \
                 [point for point in faster if float(point["flip_mean"]) < 0.03]
         answer = self.value("document.querySelector('.answer').textContent")

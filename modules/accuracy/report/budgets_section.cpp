@@ -30,10 +30,10 @@ const LedgerPoint* best_within(const Ledger& ledger, double budget_ms) {
   return best;
 }
 
-/// The fastest point with an error below the bound.
+/// The fastest point of the front with an error below the bound.
 const LedgerPoint* cheapest_below(const Ledger& ledger, double bound) {
   for (const LedgerPoint& point : ledger.points)
-    if (point.measured.flip->mean < bound) return &point;
+    if (point.measured.on_front && point.measured.flip->mean < bound) return &point;
   return nullptr;
 }
 

@@ -43,12 +43,13 @@ const LedgerPoint* users_point(const Ledger& ledger) {
   return found == ledger.points.end() ? nullptr : &*found;
 }
 
+/// Only of the front: another point may be as fast and more right than a point that chance made the fastest.
 const LedgerPoint* recommended_point(const Ledger& ledger, const LedgerPoint* users) {
   for (const double bound : {0.01, 0.03})
     for (const LedgerPoint& point : ledger.points) {
       const bool right =
           point.measured.flip->mean < bound || (users && point.measured.flip->mean <= users->measured.flip->mean);
-      if (right && point.measured.ratio_high < 1.0) return &point;
+      if (right && point.measured.on_front && point.measured.ratio_high < 1.0) return &point;
     }
   return nullptr;
 }

@@ -178,6 +178,14 @@ TEST(LedgerReport, recommends_the_fastest_setting_whose_error_is_not_seen) {
   EXPECT_THAT(html, HasSubstr("id=\"look\" aria-labelledby=\"look-title\" data-left=\"default\" "
                               "data-right=\"shadows.filter=pcss\""))
       << "and is what the slider shows";
+  ledger.points.insert(ledger.points.begin() + 2, point_at(29.9, 0.0095, {{"shadows.near", "off"}}));
+  ledger.points[2].measured.on_front = false;
+  EXPECT_EQ(report_data(ledger, {}).recommended, &ledger.points[3]) << "as fast, and more right";
+  const std::string page = ledger_report(ledger, {});
+  const std::size_t below = page.find("<h4>Error below 0.01");
+  ASSERT_NE(below, std::string::npos);
+  EXPECT_THAT(page.substr(below, page.find("</li>", below) - below), HasSubstr("The settings at the top"));
+  ledger.points.erase(ledger.points.begin() + 2);
   ledger.points[2].measured.ratio_high = 1.0;
   EXPECT_EQ(report_data(ledger, {}).recommended, &ledger.points[1]) << "not significantly faster";
   ledger.points[1].measured.flip = ErrorPair{0.9, 0.9};
