@@ -86,7 +86,7 @@ install(FILES ${PROJECT_BINARY_DIR}/gloamConfig.cmake ${PROJECT_BINARY_DIR}/gloa
 # of CPU rooms are installed; engine/gpu/vulkan is not.
 set(gloam_include_dir include/gloam)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/engine DESTINATION ${gloam_include_dir} COMPONENT gloam
-  FILES_MATCHING PATTERN "*.h" PATTERN "engine/gpu/vulkan" EXCLUDE PATTERN "engine/render/attempt.h" EXCLUDE
+  FILES_MATCHING PATTERN "*.h" PATTERN "engine/gpu/vulkan" EXCLUDE PATTERN "engine/render/frame/attempt.h" EXCLUDE
   PATTERN "engine/jobs/conformance" EXCLUDE)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/modules DESTINATION ${gloam_include_dir} COMPONENT gloam
   FILES_MATCHING REGEX "/modules/[a-z_]+/(components|module|outputs|light_names|module_list)\\.h$"

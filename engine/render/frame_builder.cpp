@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/render/frame_builder.h"
 
-#include "engine/render/view_constants.h"
+#include "engine/render/camera/view_constants.h"
 #include "engine/render/worlds/world_id.h"
 
 namespace gloam {

@@ -24,7 +24,7 @@
 #include "engine/render/draws/motion_history.h"
 #include "engine/render/knobs/knobs.h"
 #include "engine/render/outputs.h"
-#include "engine/render/pipelines.h"
+#include "engine/render/pipelines/pipelines.h"
 #include "engine/render/view.h"
 
 namespace gloam {

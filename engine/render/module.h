@@ -13,7 +13,7 @@
 #include "engine/math/types.h"
 #include "engine/render/knobs/knobs.h"
 #include "engine/render/knobs/measure.h"
-#include "engine/render/pipeline_list.h"
+#include "engine/render/pipelines/pipeline_list.h"
 #include "engine/render/view.h"
 
 namespace gloam {

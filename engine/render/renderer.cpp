@@ -6,9 +6,9 @@
 
 #include "engine/gpu/spirv/shader_interface.h"
 #include "engine/render/frame/draw_frame.h"
+#include "engine/render/frame/renderer_parts.h"
 #include "engine/render/modules_in_use/visualizers.h"
 #include "engine/render/redraw/redraw.h"
-#include "engine/render/renderer_parts.h"
 #include "engine/render/views/read_picture.h"
 #include "engine/scene/gltf/import.h"
 

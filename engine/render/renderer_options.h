@@ -15,6 +15,9 @@ namespace gpu {
 class Device;
 }
 
+/// Number of frames for which a module without demand, or a view that is not drawn, keeps its memory.
+inline constexpr std::uint32_t kFramesUntilRelease = 120;
+
 /// Handling of a demanded module whose pipelines are not compiled yet.
 enum class Readiness {
   wait,        ///< the frame waits for them: every demanded effect is in the first frame

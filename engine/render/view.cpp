@@ -10,7 +10,7 @@
 
 #include "engine/core/assert.h"
 #include "engine/core/text/plain_text.h"
-#include "engine/render/framing.h"
+#include "engine/render/camera/framing.h"
 #include "engine/scene/posing/camera_poses.h"
 #include "engine/scene/resources.h"
 

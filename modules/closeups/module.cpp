@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "engine/render/frame_builder.h"
-#include "engine/render/seen_surfaces.h"
+#include "engine/render/views/seen_surfaces.h"
 #include "engine/render/worlds/world_id.h"
 #include "engine/scene/assets.h"
 #include "engine/scene/components.h"

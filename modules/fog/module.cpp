@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/ecs/view.h"
-#include "engine/render/light_scale.h"
+#include "engine/render/camera/light_scale.h"
 #include "engine/scene/keys/table.h"
 #include "engine/scene/units.h"
 #include "modules/fog/components.h"

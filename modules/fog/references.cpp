@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "engine/ecs/view.h"
-#include "engine/render/light_scale.h"
+#include "engine/render/camera/light_scale.h"
 #include "engine/render/passes/renderer_passes.h"
 #include "modules/fog/components.h"
 #include "modules/fog/knobs.h"

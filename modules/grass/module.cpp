@@ -11,7 +11,7 @@
 #include "engine/math/finite.h"
 #include "engine/math/frustum.h"
 #include "engine/render/frame_builder.h"
-#include "engine/render/seen_surfaces.h"
+#include "engine/render/views/seen_surfaces.h"
 #include "engine/render/worlds/world_id.h"
 #include "engine/scene/units.h"
 #include "modules/grass/components.h"

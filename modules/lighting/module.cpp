@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/render/view_constants.h"
+#include "engine/render/camera/view_constants.h"
 #include "modules/lighting/antialiasing/reference.h"
 #include "modules/lighting/components.h"
 #include "modules/lighting/display/tone_reference.h"

@@ -8,9 +8,9 @@
 
 #include "engine/core/once_log.h"
 #include "engine/ecs/view.h"
+#include "engine/render/camera/light_scale.h"
 #include "engine/render/frame_builder.h"
-#include "engine/render/light_scale.h"
-#include "engine/render/seen_surfaces.h"
+#include "engine/render/views/seen_surfaces.h"
 #include "engine/scene/units.h"
 #include "modules/lights/debug/measures.h"
 #include "modules/lights/debug/oversights.h"

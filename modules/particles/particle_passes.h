@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/render/frame_builder.h"
-#include "engine/render/pipelines.h"
+#include "engine/render/pipelines/pipelines.h"
 #include "modules/particles/frame.h"
 #include "modules/particles/lighting/light_sprites_pass.h"
 

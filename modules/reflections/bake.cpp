@@ -12,7 +12,7 @@
 #include "engine/core/assert.h"
 #include "engine/ecs/view.h"
 #include "engine/math/finite.h"
-#include "engine/render/light_scale.h"
+#include "engine/render/camera/light_scale.h"
 #include "engine/scene/components.h"
 #include "engine/scene/systems.h"
 #include "modules/lighting/components.h"

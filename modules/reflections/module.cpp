@@ -3,7 +3,7 @@
 #include "modules/reflections/module.h"
 
 #include "engine/render/frame_builder.h"
-#include "engine/render/seen_surfaces.h"
+#include "engine/render/views/seen_surfaces.h"
 #include "engine/scene/assets.h"
 #include "engine/scene/keys/table.h"
 #include "modules/lighting/outputs.h"

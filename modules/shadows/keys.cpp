@@ -7,7 +7,7 @@
 #include <string>
 
 #include "engine/ecs/view.h"
-#include "engine/render/seen_surfaces.h"
+#include "engine/render/views/seen_surfaces.h"
 #include "engine/scene/components.h"
 #include "engine/scene/keys/table.h"
 #include "modules/lights/outputs.h"

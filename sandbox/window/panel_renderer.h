@@ -9,7 +9,7 @@
 #include "engine/frame/frame_graph.h"
 #include "engine/frame/transfers/upload.h"
 #include "engine/gpu/device.h"
-#include "engine/render/pipelines.h"
+#include "engine/render/pipelines/pipelines.h"
 #include "sandbox/window/panel.h"
 
 struct ImDrawData;

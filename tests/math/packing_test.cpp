@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
 #include "engine/math/packing.h"
+#include "tests/support/worse.h"
 
 #include <gtest/gtest.h>
 
@@ -66,7 +67,7 @@ TEST(Octahedral, the_zero_vector_codes_as_plus_z) {
 TEST(PackedNormals, are_within_a_hundredth_of_a_degree) {
   double worst = 0.0;
   for (const vec3 direction : directions()) {
-    worst = std::max(worst, angle_degrees(unpack_normal_snorm16(pack_normal_snorm16(direction)), direction));
+    worst = test::worse(worst, angle_degrees(unpack_normal_snorm16(pack_normal_snorm16(direction)), direction));
   }
   EXPECT_LT(worst, 0.01);
 }

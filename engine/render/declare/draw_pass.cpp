@@ -3,9 +3,9 @@
 #include "engine/render/declare/draw_pass.h"
 
 #include "engine/core/assert.h"
+#include "engine/render/camera/view_constants.h"
 #include "engine/render/declare/recording.h"
 #include "engine/render/scene/material_packing.h"
-#include "engine/render/view_constants.h"
 #include "shaders/render/shaders.h"
 
 namespace gloam {

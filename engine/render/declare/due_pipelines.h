@@ -7,7 +7,7 @@
 
 #include "engine/core/result.h"
 #include "engine/jobs/executor.h"
-#include "engine/render/pipelines.h"
+#include "engine/render/pipelines/pipelines.h"
 
 namespace gloam::declare {
 

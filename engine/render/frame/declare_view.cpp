@@ -3,7 +3,7 @@
 #include <string>
 #include <utility>
 
-#include "engine/render/attempt.h"
+#include "engine/render/frame/attempt.h"
 #include "engine/render/frame/stages.h"
 #include "engine/render/modules_in_use/visualizers.h"
 #include "engine/render/passes/renderer_passes.h"

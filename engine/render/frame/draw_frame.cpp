@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "engine/core/zones.h"
-#include "engine/render/attempt.h"
+#include "engine/render/frame/attempt.h"
 #include "engine/render/frame/stages.h"
 #include "engine/render/report/oversights.h"
-#include "engine/render/seen_surfaces.h"
+#include "engine/render/views/seen_surfaces.h"
 #include "engine/scene/resources.h"
 
 namespace gloam {

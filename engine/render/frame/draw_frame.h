@@ -6,7 +6,7 @@
 #include <span>
 
 #include "engine/render/frame/frame.h"
-#include "engine/render/renderer_parts.h"
+#include "engine/render/frame/renderer_parts.h"
 
 namespace gloam {
 

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include <string>
 
-#include "engine/render/attempt.h"
+#include "engine/render/camera/light_scale.h"
+#include "engine/render/frame/attempt.h"
 #include "engine/render/frame/stages.h"
-#include "engine/render/light_scale.h"
 
 namespace gloam {
 namespace {

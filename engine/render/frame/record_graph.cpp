@@ -3,7 +3,7 @@
 #include <string>
 
 #include "engine/core/zones.h"
-#include "engine/render/attempt.h"
+#include "engine/render/frame/attempt.h"
 #include "engine/render/frame/stages.h"
 
 namespace gloam {

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "engine/render/frame/frame.h"
-#include "engine/render/renderer_parts.h"
+#include "engine/render/frame/renderer_parts.h"
 
 /// The stages of a frame between the systems of the world and its submission, in the order of their calls. The first
 /// error gives the frame up.

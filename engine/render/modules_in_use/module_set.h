@@ -13,9 +13,9 @@
 
 #include "engine/ecs/world.h"
 #include "engine/render/frame_report.h"
-#include "engine/render/frame_resources.h"
 #include "engine/render/module.h"
 #include "engine/render/modules_in_use/pipeline_wait.h"
+#include "engine/render/resources/frame_resources.h"
 #include "engine/render/view.h"
 #include "engine/schedule/schedule.h"
 

@@ -4,7 +4,7 @@
 
 #include "engine/core/log.h"
 #include "engine/gpu/types.h"
-#include "engine/render/pipelines.h"
+#include "engine/render/pipelines/pipelines.h"
 #include "engine/render/renderer_options.h"
 
 namespace gloam {

@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "engine/render/frame/frame.h"
+#include "engine/render/frame/renderer_parts.h"
 #include "engine/render/readback/capture.h"
 #include "engine/render/readback/geometry_picture.h"
 #include "engine/render/readback/picture.h"
-#include "engine/render/renderer_parts.h"
 
 /// Reading what passes of the last frame computed: one of its views is drawn again with copies, into the renderer's own
 /// picture, and the GPU is waited for. Each function asserts that the view belongs to the last frame of this world.

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/core/text/nearest_name.h"
-#include "engine/render/placeless.h"
+#include "engine/render/report/placeless.h"
 #include "engine/scene/components.h"
 
 namespace gloam {

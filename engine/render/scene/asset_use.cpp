@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "engine/ecs/view.h"
-#include "engine/render/frame_resources.h"
+#include "engine/render/renderer_options.h"
 #include "engine/scene/components.h"
 #include "engine/scene/resources.h"
 

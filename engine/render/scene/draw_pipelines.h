@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/render/pipelines.h"
+#include "engine/render/pipelines/pipelines.h"
 
 namespace gloam {
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "engine/render/packing/mip_chain.h"
-#include "engine/render/pipelines.h"
+#include "engine/render/pipelines/pipelines.h"
 #include "engine/render/scene/material_packing.h"
 
 namespace gloam {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/render/views/view_store.h"
 
-#include "engine/render/frame_resources.h"
+#include "engine/render/renderer_options.h"
 
 namespace gloam {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/render/view_constants.h"
+#include "engine/render/camera/view_constants.h"
 
 namespace gloam {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "engine/render/declare/compute_pass.h"
 #include "engine/render/declare/draw_pass.h"
-#include "engine/render/seen_surfaces.h"
+#include "engine/render/views/seen_surfaces.h"
 #include "modules/lighting/outputs.h"
 #include "shaders/lighting/lighting_shared.h"
 #include "shaders/lighting/shaders.h"

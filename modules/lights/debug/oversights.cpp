@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "engine/render/placeless.h"
+#include "engine/render/report/placeless.h"
 #include "modules/lights/light_set.h"
 
 namespace gloam {

@@ -8,9 +8,9 @@
 
 #include "engine/core/text/formatted.h"
 #include "engine/math/packing.h"
+#include "engine/render/camera/view_constants.h"
 #include "engine/render/outputs.h"
 #include "engine/render/readback/geometry_picture.h"
-#include "engine/render/view_constants.h"
 #include "engine/scene/resources.h"
 #include "modules/reflections/culling/placed.h"
 #include "modules/reflections/culling/tiles.h"

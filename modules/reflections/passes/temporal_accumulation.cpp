@@ -5,7 +5,7 @@
 #include <bit>
 #include <cstdint>
 
-#include "engine/render/view_constants.h"
+#include "engine/render/camera/view_constants.h"
 #include "shaders/reflections/shaders.h"
 
 namespace gloam {

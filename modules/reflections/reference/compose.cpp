@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "engine/core/assert.h"
-#include "engine/render/light_scale.h"
+#include "engine/render/camera/light_scale.h"
 #include "engine/scene/resources.h"
 #include "modules/reflections/reference/pixel_surface.h"
 #include "modules/reflections/reference/reflection_tracing.h"

@@ -11,7 +11,7 @@
 #include "engine/core/assert.h"
 #include "engine/core/hash.h"
 #include "engine/math/finite.h"
-#include "engine/render/light_scale.h"
+#include "engine/render/camera/light_scale.h"
 #include "engine/scene/assets.h"
 #include "engine/scene/resources.h"
 #include "modules/reflections/reference/lobe.h"

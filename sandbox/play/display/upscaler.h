@@ -7,7 +7,7 @@
 #include "engine/core/result.h"
 #include "engine/frame/frame_graph.h"
 #include "engine/gpu/device.h"
-#include "engine/render/pipelines.h"
+#include "engine/render/pipelines/pipelines.h"
 
 namespace gloam {
 

@@ -13,6 +13,7 @@
 #include "engine/scene/gltf/import.h"
 #include "modules/accuracy/module.h"
 #include "tests/support/render_scene.h"
+#include "tests/support/worse.h"
 
 namespace gloam {
 namespace {
@@ -94,7 +95,7 @@ TEST_F(NearestSurfaces, a_tilted_ground_of_any_width_is_where_it_is) {
       tracer->nearest(world.resource<SceneAssets>(), {&down, 1}, {&surface, 1});
       const double expected = -height / glm::dot(normal, way);
       missed += surface.hit ? 0 : 1;
-      if (surface.hit) worst = std::max(worst, std::abs(static_cast<double>(surface.distance_m) - expected));
+      if (surface.hit) worst = test::worse(worst, std::abs(static_cast<double>(surface.distance_m) - expected));
       // A ray from 2 mm above the ground up to the sky.
       const ShadowRay sky{.origin = vec3(from - normal * (height - 0.002) - tracer->origin()),
                           .direction = vec3(-way * 1e12)};

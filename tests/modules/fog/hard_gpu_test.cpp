@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/render/light_scale.h"
+#include "engine/render/camera/light_scale.h"
 #include "tests/modules/fog/support/fog_stage.h"
 
 namespace gloam::test {

@@ -9,6 +9,7 @@
 #include "modules/lighting/display/exposure.h"
 #include "modules/lighting/display/tone_reference.h"
 #include "tests/modules/lighting/lit_scene.h"
+#include "tests/support/worse.h"
 
 namespace gloam {
 namespace {
@@ -75,7 +76,7 @@ TEST_F(DitheredPicture, keeps_the_mean_of_light) {
     if (i % 4 == 3) continue;
     const double error = shown.rgba[i] - steps(light.rgba[i]);
     mean += error;
-    worst = std::max(worst, std::abs(error));
+    worst = test::worse(worst, std::abs(error));
   }
   mean /= static_cast<double>(shown.rgba.size()) * 0.75;
   EXPECT_LT(std::abs(mean), 0.02) << "steps of 8 bits";

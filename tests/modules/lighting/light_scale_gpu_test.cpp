@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/render/light_scale.h"
+#include "engine/render/camera/light_scale.h"
 #include "modules/depth_of_field/components.h"
 #include "modules/fog/components.h"
 #include "modules/lighting/display/tone_reference.h"

@@ -168,7 +168,7 @@ TEST_F(GeometryPhase, blades_are_lit_as_meshes_of_the_same_triangles) {
   for (std::size_t i = 0; i < blades.rgba.size(); i += 4) {
     const vec3 blade(blades.rgba[i], blades.rgba[i + 1], blades.rgba[i + 2]);
     const vec3 twin(meshes.rgba[i], meshes.rgba[i + 1], meshes.rgba[i + 2]);
-    if (glm::length(blade - twin) > 0.01f * glm::length(twin) + 1e-3f) ++different;
+    if (!(glm::length(blade - twin) <= 0.01f * glm::length(twin) + 1e-3f)) ++different;
     if (twin.g > 1.5f * twin.r && twin.g > 0.05f) ++lit;
   }
   EXPECT_GT(lit, 300);

@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "engine/gpu/recording/device.h"
-#include "tests/render/counting_module.h"
+#include "tests/render/modules_in_use/counting_module.h"
 
 namespace gloam {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/gpu/recording/device.h"
-#include "engine/render/frame_resources.h"
+#include "engine/render/renderer_options.h"
 #include "engine/render/views/read_picture.h"
 #include "engine/render/views/view_checks.h"
 #include "tests/support/expect_assert.h"

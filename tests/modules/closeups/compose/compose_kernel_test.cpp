@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "engine/math/packing.h"
+#include "engine/render/camera/view_constants.h"
 #include "engine/render/view.h"
-#include "engine/render/view_constants.h"
 #include "modules/shadows/views/cascade_rows.h"
 #include "shaders/closeups/closeups_shared.h"
 #include "shaders/closeups/shaders.h"

@@ -15,7 +15,7 @@
 #include "engine/render/renderer.h"
 #include "modules/module_list/module_list.h"
 #include "tests/modules/grass/support/grass_stage.h"
-#include "tests/render/gated_device.h"
+#include "tests/render/modules_in_use/gated_device.h"
 
 namespace gloam::test {
 namespace {

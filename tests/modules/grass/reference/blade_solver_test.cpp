@@ -12,6 +12,7 @@
 #include "tests/jobs/executors.h"
 #include "tests/modules/grass/support/blades.h"
 #include "tests/support/scale.h"
+#include "tests/support/worse.h"
 
 namespace gloam::test {
 namespace {
@@ -37,7 +38,7 @@ BladeState pressed_flat(const BladeModel& blade) {
 
 double distance(const BladeState& a, const BladeState& b) {
   double most = 0.0;
-  for (std::size_t k = 0; k < kGrassKnots; ++k) most = std::max(most, glm::length(a.at[k] - b.at[k]));
+  for (std::size_t k = 0; k < kGrassKnots; ++k) most = worse(most, glm::length(a.at[k] - b.at[k]));
   return most;
 }
 

@@ -24,7 +24,7 @@
 #include "modules/grass/field/grow.h"
 #include "modules/grass/frame.h"
 #include "tests/modules/lighting/guest_module.h"
-#include "tests/render/failing_module.h"
+#include "tests/render/frame/failing_module.h"
 #include "tests/support/scale.h"
 
 namespace gloam::test {

@@ -124,7 +124,7 @@ inline void expect_grass_on_stems(const GrassPicture& picture, const std::vector
     double best = std::numeric_limits<double>::infinity();
     for (const Stem& stem : stems) best = std::min(best, stem.distance_to(point) - 0.5 * widened * stem.width_m);
     farthest = std::max(farthest, best);
-    astray += best > slack_m ? 1 : 0;
+    astray += best <= slack_m ? 0 : 1;
   }
   EXPECT_EQ(astray, 0u) << "of " << picture.grass_pixels() << " pixels; the farthest is " << farthest
                         << " m from all blades";

@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "engine/frame/transfers/upload.h"
-#include "engine/render/view_constants.h"
+#include "engine/render/camera/view_constants.h"
 #include "shaders/lights/shaders.h"
 #include "tests/support/gpu_device.h"
 

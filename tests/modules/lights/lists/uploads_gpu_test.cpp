@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "tests/modules/lights/lists/light_scenes.h"
-#include "tests/render/failing_module.h"
+#include "tests/render/frame/failing_module.h"
 
 // Tile light masks and zBins are uploaded only when they changed. A frame that reads old ones would lose lights, so
 // pictures are compared with those of all lights.

@@ -288,7 +288,7 @@ TEST_F(ParticleBlend, overdraw_counts_the_sprites_at_each_pixel) {
         discs += dx * dx + dy * dy < r * r ? 1 : 0;
       }
       const double found = static_cast<double>(shown[y * 64 + x].x);
-      worst = std::max(worst, found - discs);
+      worst = worse(worst, found - discs);
       most = std::max(most, found);
       all += discs > 0 ? found / discs : 0.0;
     }

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "engine/render/view_constants.h"
+#include "engine/render/camera/view_constants.h"
 #include "modules/particles/simulation/simulate_particles_pass.h"
 #include "modules/particles/sorting/key_ranges.h"
 #include "shaders/particles/shaders.h"

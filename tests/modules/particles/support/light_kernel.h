@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "engine/math/packing.h"
-#include "engine/render/view_constants.h"
+#include "engine/render/camera/view_constants.h"
 #include "modules/particles/baked_light.h"
 #include "shaders/particles/shaders.h"
 #include "tests/modules/particles/support/light_twin.h"

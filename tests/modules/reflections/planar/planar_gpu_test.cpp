@@ -94,7 +94,7 @@ struct PlanarReflections : test::GuestSceneTest {
     const double all = static_cast<double>(a.width) * a.height;
     for (std::uint32_t y = 0; y < a.height; ++y)
       for (std::uint32_t x = 0; x < a.width; ++x) {
-        const double different = relative_error(pixel(a, x, y), pixel(b, x, y), 1.0) > 0.03 ? 1.0 : 0.0;
+        const double different = relative_error(pixel(a, x, y), pixel(b, x, y), 1.0) <= 0.03 ? 0.0 : 1.0;
         double edge = 0.0;
         for (std::uint32_t v = std::max(y, 2u) - 2; v < std::min(y + 3, a.height); ++v)
           for (std::uint32_t u = std::max(x, 2u) - 2; u < std::min(x + 3, a.width); ++u)

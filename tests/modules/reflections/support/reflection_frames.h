@@ -139,7 +139,7 @@ class ReflectionFrames : public GuestSceneTest {
       for (std::uint32_t x = 0; x < settings.width; ++x) {
         if (confidence[std::size_t{y} * settings.width + x].x < 0.9f) continue;
         ++found.confident;
-        found.different += relative_error(pixel(drawn, x, y), pixel(traced, x, y), 2.0) > 0.03 ? 1 : 0;
+        found.different += relative_error(pixel(drawn, x, y), pixel(traced, x, y), 2.0) <= 0.03 ? 0 : 1;
       }
     return found;
   }

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "engine/math/packing.h"
+#include "engine/render/camera/view_constants.h"
 #include "engine/render/view.h"
-#include "engine/render/view_constants.h"
 #include "shaders/reflections/reflections_shared.h"
 #include "tests/modules/reflections/culling/proxy_oracle.h"
 

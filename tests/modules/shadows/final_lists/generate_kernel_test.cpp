@@ -11,8 +11,8 @@
 #include <string>
 
 #include "engine/math/packing.h"
+#include "engine/render/camera/view_constants.h"
 #include "engine/render/view.h"
-#include "engine/render/view_constants.h"
 #include "modules/shadows/views/cascade_rows.h"
 #include "shaders/lights/lights_shared.h"
 #include "shaders/shadows/final_lists_shared.h"

@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "engine/render/view_constants.h"
+#include "engine/render/camera/view_constants.h"
 #include "modules/shadows/atlas/mip_places.h"
 #include "modules/shadows/views/cascade_rows.h"
 #include "shaders/shadows/maps/planes_shared.h"

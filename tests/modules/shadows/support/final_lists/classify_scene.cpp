@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "engine/math/packing.h"
-#include "engine/render/view_constants.h"
+#include "engine/render/camera/view_constants.h"
 #include "modules/shadows/atlas/mip_places.h"
 #include "shaders/shadows/maps/planes_shared.h"
 

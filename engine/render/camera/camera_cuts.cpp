@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "engine/render/camera_cuts.h"
+#include "engine/render/camera/camera_cuts.h"
 
 namespace gloam {
 

@@ -7,7 +7,7 @@
 
 #include "modules/closeups/components.h"
 #include "modules/shadows/components.h"
-#include "tests/render/demand_fixture.h"
+#include "tests/render/modules_in_use/demand_fixture.h"
 
 namespace gloam {
 namespace {

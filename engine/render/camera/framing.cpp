@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "engine/render/framing.h"
+#include "engine/render/camera/framing.h"
 
 #include <algorithm>
 #include <cmath>

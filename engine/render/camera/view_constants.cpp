@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "engine/render/view_constants.h"
+#include "engine/render/camera/view_constants.h"
 
 namespace gloam {
 

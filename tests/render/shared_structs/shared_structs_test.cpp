@@ -12,7 +12,7 @@
 #include "engine/render/packing/mesh_packing.h"
 #include "engine/render/scene/material_packing.h"
 #include "shaders/every/shaders.h"
-#include "tests/render/shared_structs.h"
+#include "tests/render/shared_structs/shared_structs.h"
 #include "tests/render/shared_structs_table.h"  // written by shared_structs.py from the structures of all *_shared.h
 
 // C++ and shaders share one declaration of each structure. These tests compare the offsets of both compilers.

@@ -16,8 +16,8 @@
 #include "modules/lighting/module.h"
 #include "modules/lights/module.h"
 #include "tests/render/draws/small_scene.h"
-#include "tests/render/gated_device.h"
-#include "tests/render/temporal_module.h"
+#include "tests/render/frame/temporal_module.h"
+#include "tests/render/modules_in_use/gated_device.h"
 
 namespace gloam {
 namespace {

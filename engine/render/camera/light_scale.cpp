@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "engine/render/light_scale.h"
+#include "engine/render/camera/light_scale.h"
 
 #include <algorithm>
 #include <cmath>

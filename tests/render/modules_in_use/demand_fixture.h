@@ -24,9 +24,9 @@
 #include "modules/lights/module.h"
 #include "modules/module_list/module_list.h"
 #include "modules/shadows/module.h"
-#include "tests/render/counting_module.h"
 #include "tests/render/draws/small_scene.h"
-#include "tests/render/gated_device.h"
+#include "tests/render/modules_in_use/counting_module.h"
+#include "tests/render/modules_in_use/gated_device.h"
 
 namespace gloam::test {
 

@@ -4,11 +4,11 @@
 
 #include "engine/core/once_log.h"
 #include "engine/gpu/device.h"
-#include "engine/render/frame_resources.h"
 #include "engine/render/modules_in_use/knobs_in_use.h"
 #include "engine/render/modules_in_use/module_set.h"
 #include "engine/render/renderer_options.h"
 #include "engine/render/report/last_frame.h"
+#include "engine/render/resources/frame_resources.h"
 #include "engine/render/views/view_store.h"
 #include "engine/render/worlds/world_slots.h"
 #include "engine/schedule/schedule.h"

@@ -6,7 +6,7 @@ import re
 import sys
 from pathlib import Path
 
-sys.path.append(str(Path(__file__).resolve().parents[1] / "hygiene"))
+sys.path.append(str(Path(__file__).resolve().parents[2] / "hygiene"))
 import source_text  # noqa: E402
 
 STRUCT = re.compile(r"\bstruct (\w+)\s*\{(.*?)\};", re.DOTALL)
@@ -33,7 +33,7 @@ def main(root, output):
             rows.append(f'{{"{name}", sizeof(shaders::{name}), {{{fields}}}}},\n')
     includes = "".join(f'#include "{header}"\n' for header in headers)
     Path(output).parent.mkdir(parents=True, exist_ok=True)
-    Path(output).write_text(f'#pragma once\n#include "tests/render/shared_structs.h"\n{includes}\nnamespace gloam::test {{\n'
+    Path(output).write_text(f'#pragma once\n#include "tests/render/shared_structs/shared_structs.h"\n{includes}\nnamespace gloam::test {{\n'
                             f"inline const std::vector<SharedStruct> kSharedStructs = {{\n{''.join(rows)}}};\n}}\n", encoding="utf-8")
 
 

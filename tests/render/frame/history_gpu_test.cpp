@@ -10,7 +10,7 @@
 #include "modules/lighting/module.h"
 #include "modules/lights/module.h"
 #include "tests/render/draws/small_scene.h"
-#include "tests/render/temporal_module.h"
+#include "tests/render/frame/temporal_module.h"
 #include "tests/support/gpu_device.h"
 
 namespace gloam {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "engine/render/renderer_parts.h"
+#include "engine/render/frame/renderer_parts.h"
 
 #include <string>
 #include <utility>

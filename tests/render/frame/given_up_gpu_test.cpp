@@ -17,7 +17,7 @@
 #include "modules/fog/components.h"
 #include "modules/module_list/module_list.h"
 #include "tests/render/draws/small_scene.h"
-#include "tests/render/failing_module.h"
+#include "tests/render/frame/failing_module.h"
 #include "tests/support/gpu_device.h"
 
 namespace gloam {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/render/pipelines.h"
+#include "engine/render/pipelines/pipelines.h"
 #include "modules/shadows/components.h"
-#include "tests/render/demand_fixture.h"
+#include "tests/render/modules_in_use/demand_fixture.h"
 
 namespace gloam {
 namespace {

@@ -21,7 +21,7 @@
 #include "engine/core/log.h"
 #include "engine/core/result.h"
 #include "engine/gpu/device.h"
-#include "engine/render/pipeline_list.h"
+#include "engine/render/pipelines/pipeline_list.h"
 
 namespace gloam {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "engine/render/frame_resources.h"
+#include "engine/render/resources/frame_resources.h"
 
 namespace gloam {
 

@@ -10,15 +10,12 @@
 #include "engine/frame/history.h"
 #include "engine/frame/transfers/results.h"
 #include "engine/frame/transfers/upload.h"
-#include "engine/render/camera_cuts.h"
+#include "engine/render/camera/camera_cuts.h"
 #include "engine/render/declare/recording.h"
 #include "engine/render/draws/motion_history.h"
-#include "engine/render/pipelines.h"
+#include "engine/render/pipelines/pipelines.h"
 
 namespace gloam {
-
-/// Number of frames for which a module without demand, or a view that is not drawn, keeps its memory.
-inline constexpr std::uint32_t kFramesUntilRelease = 120;
 
 /// The objects that frames use one after another: graph, upload rings, results, histories and pipelines. Each of them
 /// treats a frame as a transaction; the functions here keep them in step.

@@ -16,7 +16,7 @@
 #include "modules/lighting/module.h"
 #include "modules/lights/module.h"
 #include "tests/render/draws/small_scene.h"
-#include "tests/render/gated_device.h"
+#include "tests/render/modules_in_use/gated_device.h"
 #include "tests/support/gpu_device.h"
 
 namespace gloam {

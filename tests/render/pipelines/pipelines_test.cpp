@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "engine/render/pipelines.h"
+#include "engine/render/pipelines/pipelines.h"
 
 #include <gtest/gtest.h>
 
