@@ -20,11 +20,11 @@ constexpr std::size_t kLightGrain = 64;   // lights per job
 void grow(CasterBounds& bounds, const Aabb& box, const dmat4& world_from_box) {
   const dvec3 center = dvec3(world_from_box * dvec4(dvec3(box.center()), 1.0));
   const dvec3 half(box.half_extent());
-  const dvec3 reach = glm::abs(dvec3(world_from_box[0])) * half.x + glm::abs(dvec3(world_from_box[1])) * half.y +
-                      glm::abs(dvec3(world_from_box[2])) * half.z;
-  const dvec3 sum = center + reach;
-  if (!(glm::dot(sum, sum) < 1e300)) return;  // a box that is not finite casts no shadow
-  bounds.grow(center - reach, center + reach);
+  const OrientedBox placed{center, glm::dmat3(dvec3(world_from_box[0]) * half.x, dvec3(world_from_box[1]) * half.y,
+                                              dvec3(world_from_box[2]) * half.z)};
+  const double sum = glm::length(center) + placed.half_diagonal();
+  if (!(sum < 1e150)) return;  // a box that is not finite casts no shadow
+  bounds.grow(placed);
 }
 
 /// Null when the mesh does not exist or has no bounds.
@@ -95,7 +95,7 @@ void shadow_bounds_system(ViewResource<const VisibleLights> visible,
   CasterBounds all;
   all.grid_unit = grid->unit;
   for (const CasterBounds& bounds : found) {
-    all.grow(bounds.min, bounds.max);
+    all.grow(bounds);
     all.add_sizes(bounds);
   }
   for (const JointMatrices::Range& range : joints->ranges) {

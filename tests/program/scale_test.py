@@ -127,6 +127,15 @@ def lawn(sun=False):
     return scene
 
 
+def turned_about(axis, angle):
+    """Turns the whole scene of a file."""
+    def change(file):
+        file["nodes"].append({"children": list(file["scenes"][0]["nodes"]),
+                              "rotation": [*(c * math.sin(0.5 * angle) for c in axis), math.cos(0.5 * angle)]})
+        file["scenes"][0]["nodes"] = [len(file["nodes"]) - 1]
+    return change
+
+
 class Scale(ProgramCase):
     shares_process = True
 
@@ -233,25 +242,36 @@ class Scale(ProgramCase):
                 steps = [abs(a - b) for a, b in zip(first.rgb[-3 * 160 * rows:], other.rgb[-3 * 160 * rows:])]
                 self.assertLessEqual(sum(steps) / len(steps), 0.5)
 
-    def test_the_reference_over_a_slanted_ground_of_any_width(self):
-        def slanted(name, half):
-            scene = sun()
-            scene.meshes[0] = ([(x * half / 6.0, y, z * half / 6.0) for x, y, z in scene.meshes[0][0]], *scene.meshes[0][1:])
-            path = self.folder / (name + ".gltf")
-            scene.write(path)
+    def picture_of_ground(self, name, scene, half, *options, change=None):
+        """The scene with a ground of another width. change: of the file."""
+        scene.meshes[0] = ([(x * half / 6.0, y, z * half / 6.0) for x, y, z in scene.meshes[0][0]], *scene.meshes[0][1:])
+        path = self.folder / (name + ".gltf")
+        scene.write(path)
+        if change:
             file = json.loads(path.read_text())
-            h = 0.35
-            file["nodes"].append({"children": list(range(len(file["nodes"]))),
-                                  "rotation": [0.36 * math.sin(h), 0.48 * math.sin(h), 0.8 * math.sin(h), math.cos(h)]})
-            file["scenes"][0]["nodes"] = [len(file["nodes"]) - 1]
+            change(file)
             path.write_text(json.dumps(file))
-            self.expect(0, "render", path.name, "--size", "160x108", "--out", name + ".png", "--view", "shadow_reference:key")
-            return read_png(self.folder / (name + ".png"))
-        first, rows = slanted("first", 6.0), 60
+        self.expect(0, "render", path.name, "--size", "160x108", "--out", name + ".png", *options)
+        return read_png(self.folder / (name + ".png"))
+
+    def same_ground(self, first, other):
+        rows = 60  # the ground of all fills the last rows
+        steps = [abs(a - b) for a, b in zip(first.rgb[-3 * 160 * rows:], other.rgb[-3 * 160 * rows:])]
+        self.assertLessEqual(sum(steps) / len(steps), 0.5)
+
+    def test_the_reference_over_a_slanted_ground_of_any_width(self):
+        shown = ("--view", "shadow_reference:key")
+        first = self.picture_of_ground("first", sun(), 6.0, *shown, change=turned_about((0.36, 0.48, 0.8), 0.7))
         for half in (1e4, 1e6, 1e9) if LONG else (1e4, 1e9):
             with self.subTest(half=half):
-                steps = [abs(a - b) for a, b in zip(first.rgb[-3 * 160 * rows:], slanted("wide", half).rgb[-3 * 160 * rows:])]
-                self.assertLessEqual(sum(steps) / len(steps), 0.5)
+                self.same_ground(first, self.picture_of_ground("wide", sun(), half, *shown, change=turned_about((0.36, 0.48, 0.8), 0.7)))
+
+    def test_shadows_over_a_slanted_ground_of_any_width(self):
+        for axis, angle in (((0.0, 0.0, 1.0), math.atan(1 / 3)), ((0.36, 0.48, 0.8), 0.7)):
+            first = self.picture_of_ground("first", sun(), 6.0, change=turned_about(axis, angle))
+            for half in (1e3, 1e4, 1e5, 1e7) if LONG else (1e4, 1e7):
+                with self.subTest(angle=angle, half=half):
+                    self.same_ground(first, self.picture_of_ground("wide", sun(), half, change=turned_about(axis, angle)))
 
     def test_near_planes(self):
         for kind in ("perspective", "orthographic"):

@@ -36,6 +36,11 @@ double power_above(double value, const CasterBounds& casters) {
   return power_above(value / casters.grid_unit) * casters.grid_unit;
 }
 
+/// Half the size of the box along the world's axes around a box.
+dvec3 reach_of(const OrientedBox& box) {
+  return glm::abs(box.half_axes[0]) + glm::abs(box.half_axes[1]) + glm::abs(box.half_axes[2]);
+}
+
 dvec3 center_of(const CasterBounds& casters) { return (casters.min + casters.max) * 0.5; }
 
 /// Radius of the casters' sphere, rounded up in steps, so that small movements of casters do not change it.
@@ -77,20 +82,54 @@ Range extent_along(const CasterBounds& casters, const dvec3& forward, const Casc
   return {center - half, center + half};
 }
 
+/// The box, or one a little larger, whose half axes span a volume.
+OrientedBox with_volume(const OrientedBox& box) {
+  const double least = std::max(1e-12 * box.half_diagonal(), 1e-30);
+  OrientedBox solid = box;
+  for (int axis = 0; axis < 3; ++axis) {
+    const dvec3 across = glm::cross(box.half_axes[(axis + 1) % 3], box.half_axes[(axis + 2) % 3]);
+    if (glm::length(box.half_axes[axis]) < least && glm::length(across) > 0.0)
+      solid.half_axes[axis] = least * glm::normalize(across);
+  }
+  if (std::abs(glm::determinant(solid.half_axes)) > 0.0) return solid;
+  const dvec3 reach = glm::max(reach_of(box), dvec3(least));
+  solid.half_axes = glm::dmat3(reach.x, 0.0, 0.0, 0.0, reach.y, 0.0, 0.0, 0.0, reach.z);
+  return solid;
+}
+
 /// The range along `forward`, relative to the sphere's centre, in which lines parallel to it through the sphere are
-/// inside the casters' box. Empty (low > high) if no line meets the box.
-Range extent_beside(const CasterBounds& casters, const dvec3& forward, const CascadeSphere& sphere) {
+/// inside the box, which has a volume. Empty (low > high) if no line meets the box.
+Range extent_beside(const OrientedBox& box, const dvec3& forward, const CascadeSphere& sphere) {
   Range range{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   for (int axis = 0; axis < 3; ++axis) {
-    const double radius = sphere.radius_m * std::sqrt(std::max(0.0, 1.0 - forward[axis] * forward[axis]));
-    const double low = casters.min[axis] - sphere.center[axis] - radius;
-    const double high = casters.max[axis] - sphere.center[axis] + radius;
-    if (std::abs(forward[axis]) < 1e-12) continue;
-    const double a = low / forward[axis], b = high / forward[axis];
+    // The box is between two planes, whose normal is across the other two axes.
+    const dvec3 across = glm::cross(box.half_axes[(axis + 1) % 3], box.half_axes[(axis + 2) % 3]);
+    const dvec3 normal = glm::normalize(across);
+    const double along = glm::dot(normal, forward);
+    if (std::abs(along) < 1e-12) continue;
+    const double middle = glm::dot(normal, box.center - sphere.center);
+    const double half = std::abs(glm::dot(normal, box.half_axes[axis])) +
+                        sphere.radius_m * std::sqrt(std::max(0.0, 1.0 - along * along));
+    const double a = (middle - half) / along, b = (middle + half) / along;
     range.low = std::max(range.low, std::min(a, b));
     range.high = std::min(range.high, std::max(a, b));
   }
   return range;
+}
+
+/// The range in which lines through the sphere are inside a caster's box.
+Range extent_beside(const CasterBounds& casters, const dvec3& forward, const CascadeSphere& sphere) {
+  Range all{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  const auto add = [&](const OrientedBox& box) {
+    const Range range = extent_beside(with_volume(box), forward, sphere);
+    if (range.low <= range.high) all = {std::min(all.low, range.low), std::max(all.high, range.high)};
+  };
+  for (std::size_t i = 0; i < casters.largest_count; ++i) add(casters.largest[i]);
+  if (casters.rest_min.x <= casters.rest_max.x) {
+    const dvec3 half = (casters.rest_max - casters.rest_min) * 0.5;
+    add({casters.rest_min + half, glm::dmat3(half.x, 0.0, 0.0, 0.0, half.y, 0.0, 0.0, 0.0, half.z)});
+  }
+  return all;
 }
 
 Range depth_range(const CasterBounds& casters, const dvec3& forward, const CascadeSphere& sphere) {
@@ -123,6 +162,11 @@ vec4 row_of(const dvec3& axis, double offset) { return vec4(vec3(axis), static_c
 
 }  // namespace
 
+double OrientedBox::half_diagonal() const {
+  return std::sqrt(glm::dot(half_axes[0], half_axes[0]) + glm::dot(half_axes[1], half_axes[1]) +
+                   glm::dot(half_axes[2], half_axes[2]));
+}
+
 bool CasterBounds::known() const {
   for (int axis = 0; axis < 3; ++axis)
     if (!std::isfinite(min[axis]) || !std::isfinite(max[axis]) || !(min[axis] <= max[axis])) return false;
@@ -146,6 +190,40 @@ void CasterBounds::add_size(double half_diagonal) {
   log2_sizes += log2_size;
   const double index = std::ceil(log2_size) - kLeastExponent;
   ++sizes[static_cast<std::size_t>(std::clamp(index, 0.0, static_cast<double>(sizes.size() - 1)))];
+}
+
+void CasterBounds::grow(const OrientedBox& box) {
+  const dvec3 reach = reach_of(box);
+  min = glm::min(min, box.center - reach);
+  max = glm::max(max, box.center + reach);
+  add_large(box);
+}
+
+void CasterBounds::grow(const CasterBounds& other) {
+  min = glm::min(min, other.min);
+  max = glm::max(max, other.max);
+  rest_min = glm::min(rest_min, other.rest_min);
+  rest_max = glm::max(rest_max, other.rest_max);
+  for (std::size_t i = 0; i < other.largest_count; ++i) add_large(other.largest[i]);
+}
+
+void CasterBounds::add_large(const OrientedBox& box) {
+  const double size = box.half_diagonal();
+  std::size_t at = largest_count;
+  while (at > 0 && largest[at - 1].half_diagonal() < size) --at;
+  const bool full = largest_count == kLargest;
+  if (full) {
+    const OrientedBox& smallest = at == kLargest ? box : largest.back();
+    const dvec3 reach = reach_of(smallest);
+    rest_min = glm::min(rest_min, smallest.center - reach);
+    rest_max = glm::max(rest_max, smallest.center + reach);
+    if (at == kLargest) return;
+  }
+  largest_count += full ? 0 : 1;
+  std::move_backward(largest.begin() + static_cast<std::ptrdiff_t>(at),
+                     largest.begin() + static_cast<std::ptrdiff_t>(largest_count - 1),
+                     largest.begin() + static_cast<std::ptrdiff_t>(largest_count));
+  largest[at] = box;
 }
 
 void CasterBounds::add_sizes(const CasterBounds& other) {

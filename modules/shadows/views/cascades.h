@@ -13,6 +13,14 @@
 
 namespace gloam {
 
+/// Box along any three axes: all points center + x · half_axes[0] + y · half_axes[1] + z · half_axes[2] with x, y and z
+/// in −1 … 1.
+struct OrientedBox {
+  dvec3 center = dvec3(0.0);
+  glm::dmat3 half_axes = glm::dmat3(0.0);
+  [[nodiscard]] double half_diagonal() const;
+};
+
 /// World-space box around all casters; a view resource, written by system shadow_bounds.
 struct CasterBounds {
   dvec3 min = dvec3(std::numeric_limits<double>::infinity());
@@ -26,6 +34,14 @@ struct CasterBounds {
   std::array<std::uint32_t, 128> sizes{};
   double log2_sizes = 0.0;  ///< sum of the binary logarithms of the casters' half diagonals, grid units
 
+  /// The largest casters, largest first. A slanted ground is as deep as it is wide in a box along the world's axes, but
+  /// flat in its own. All other casters are in the box from rest_min to rest_max.
+  static constexpr std::size_t kLargest = 8;
+  std::array<OrientedBox, kLargest> largest{};
+  std::size_t largest_count = 0;
+  dvec3 rest_min = dvec3(std::numeric_limits<double>::infinity());
+  dvec3 rest_max = dvec3(-std::numeric_limits<double>::infinity());
+
   /// False when there are no casters, and when a bound is not finite.
   [[nodiscard]] bool known() const;
   /// Geometric mean of the casters' half diagonals, rounded up to a power of two grid units, but at most eight times
@@ -36,7 +52,15 @@ struct CasterBounds {
   void grow(const dvec3& box_min, const dvec3& box_max) {
     min = glm::min(min, box_min);
     max = glm::max(max, box_max);
+    rest_min = glm::min(rest_min, box_min);
+    rest_max = glm::max(rest_max, box_max);
   }
+  void grow(const OrientedBox& box);
+  /// Adds other's boxes; not its sizes.
+  void grow(const CasterBounds& other);
+
+ private:
+  void add_large(const OrientedBox& box);
 };
 
 /// The bounding sphere of one cascade. Its radius does not depend on the camera's position or direction. If it is the
@@ -78,8 +102,8 @@ inline constexpr double kMostCasterSizes = 64.0;
 /// The box of a cascade that holds the sphere. square: place in the atlas; its size (> 2) is the resolution. The
 /// corners lie on a texel grid fixed to the world (at CasterBounds::grid_anchor), and near and far side lie at steps of
 /// a depth grid, so that the map of a moving camera shifts by whole texels. The box reaches along the light as far as
-/// casters do; if that is more than depths can hold, as far as their bounds reach beside the sphere, and kMostReach
-/// radii to either side at most. It reaches kReachUnknown radii when the casters' bounds are unknown.
+/// casters do; if that is more than depths can hold, as far as the boxes of CasterBounds reach beside the sphere, and
+/// kMostReach radii to either side at most. It reaches kReachUnknown radii when the casters' bounds are unknown.
 [[nodiscard]] ShadowFace cascade_face(Entity light, const FaceAxes& axes, const CascadeSphere& sphere,
                                       const CasterBounds& casters, const AtlasSquare& square, float kernel_rim);
 

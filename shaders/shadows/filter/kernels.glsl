@@ -49,8 +49,11 @@ const FilterKernel kSquareKernels[3] =
                     FilterKernel(vec4(0.01376, 0.02660, -0.00107, 0.03152), vec4(-0.00014, 0.00072, 0.03128, 0.03411),
                                  vec2(0.03271, 0.02612)));
 
-// Weights for a penumbra of t · 8 texels, 0 ≤ t ≤ 1. They sum to 1 over the 49 cells.
+// Weights for a penumbra of t · 8 texels, 0 ≤ t ≤ 1. They sum to 1 over the 49 cells. Below two texels the curve is
+// left for the point sooner, which is reached at 1.2 texels: there a cell and the map's texels blur as much as the disc
+// would, and the curve's weights, right in their variance, would let texels count that lie beside the penumbra.
 FilterRows filter_rows(float t, bool square) {
+  t = min(t, max(2.5 * t - 0.375, 0.0));
   float s = 1.0 - t;
   vec3 bezier = vec3(3.0 * s * s * t, 3.0 * s * t * t, t * t * t);
   FilterKernel k1 = square ? kSquareKernels[0] : kDiscKernels[0];

@@ -117,7 +117,9 @@ class ShadowCorners : public ShadowKernelTest {
                          static_cast<std::uint32_t>(face) / 4 * kRoomFace);
       maps.add_face(draw_face(pose, kRoomFace, scene), origin, kRoomFace, false, GLOAM_SHADOW_MIPS_COVERAGE,
                     static_cast<float>(6.0 * tan_half / kRoomFace));
-      if (face == 0) row = spot_row(pose, tan_half / 1.05, lamp.emitter_m, origin, kRoomFace);
+      // A cube's faces meet at tangents of 1. Beyond tan_inner a receiver counts as lit.
+      const double tan_inner = lamp.spot ? tan_half / 1.05 : 1.0;
+      if (face == 0) row = spot_row(pose, tan_inner, lamp.emitter_m, origin, kRoomFace);
       row.origins[face] = vec2(origin);
     }
     if (!lamp.spot) row.kind = GLOAM_SHADOW_CUBE;
@@ -187,6 +189,7 @@ TEST_F(ShadowCorners, of_a_room_are_as_rays_say_for_point_lights) {
 }
 
 // Near the edges a face stretches the emitter's outline along the radius, and a round kernel only has the same area.
+// Some points of the room are harder than others wherever they lie in a face, so the edges of one turn say nothing.
 TEST_F(ShadowCorners, are_nearly_as_exact_at_the_edges_of_cube_faces) {
   for (const int rods : {16, 40}) {
     FilterError chs, wide, pcss;
@@ -198,7 +201,7 @@ TEST_F(ShadowCorners, are_nearly_as_exact_at_the_edges_of_cube_faces) {
       pcss.edge += j.pcss.edge;
     }
     EXPECT_LE(chs.edge, pcss.edge) << rods;
-    EXPECT_LE(chs.edge, 2.0 * chs.middle) << rods;
+    EXPECT_LE(chs.edge, 1.3 * chs.middle) << rods;
     EXPECT_LE(wide.edge, pcss.edge) << rods;
   }
 }

@@ -128,5 +128,16 @@ TEST_F(ShadowPenumbra, follows_the_disc_within_the_texel_of_its_mip) {
   EXPECT_LT(error, 0.06);
 }
 
+// A texel beside an edge whose penumbra is a texel wide, nothing of the edge's texels may count.
+TEST_F(ShadowPenumbra, of_a_texel_ends_within_a_texel_of_its_edge) {
+  SpotRig rig;
+  rig.width_m = rig.width_for(1.0, 4.0, 2.0);
+  const auto depths = over_floor(rig.size, [](std::uint32_t x, std::uint32_t) { return x < 128; });
+  const auto at = [&](double x) { return rig.at(floor_at(rig, x, 128.5)); };
+  const auto seen = rig.look(device(), depths, {at(126.9), at(129.1)});
+  EXPECT_NEAR(seen[0].visibility, 0.0f, 0.005f);
+  EXPECT_NEAR(seen[1].visibility, 1.0f, 0.005f);
+}
+
 }  // namespace
 }  // namespace gloam::test

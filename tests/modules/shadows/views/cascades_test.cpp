@@ -9,6 +9,7 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <limits>
 #include <random>
+#include <vector>
 
 namespace gloam {
 namespace {
@@ -281,6 +282,62 @@ TEST(CascadeFaces, see_what_is_between_them_and_the_light) {
   EXPECT_FALSE(sees(dvec3(axes.forward) * 60.0));
   EXPECT_FALSE(sees(dvec3(axes.right) * 6.0));
   EXPECT_FALSE(sees(dvec3(axes.up) * -6.0));
+}
+
+dmat4 slanted() { return glm::rotate(dmat4(1.0), std::atan(1.0 / 3.0), glm::normalize(dvec3(0.3, 0.1, 1.0))); }
+
+OrientedBox placed(const dvec3& center, const dvec3& half, const dmat4& turn) {
+  const glm::dmat3 axes(turn);
+  return {center, glm::dmat3(axes[0] * half.x, axes[1] * half.y, axes[2] * half.z)};
+}
+
+// In a box along the world's axes a slanted ground is as deep as it is wide.
+TEST(CascadeFaces, over_a_slanted_ground_of_any_width_are_as_deep_as_what_is_beside_them) {
+  const CascadeSphere sphere{0, dvec3(2.0, 1.0, -3.0), 4.0};
+  for (const double width : {1e4, 1e5, 1e7, 1e9}) {
+    CasterBounds casters;
+    casters.grow(placed(dvec3(0.0), dvec3(width, 0.0, width), slanted()));
+    casters.grow(placed(dvec3(2.0, 2.0, -3.0), dvec3(1.0), dmat4(1.0)));
+    const ShadowFace face = cascade_face({}, sun(), sphere, casters, kSquare, kRim);
+    EXPECT_LT(face.far_m, 8.0f * 4.0f) << width;
+    EXPECT_GT(face.far_m, 2.0f * 4.0f) << width;
+  }
+}
+
+TEST(CascadeFaces, hold_all_casters_beside_their_sphere_whatever_their_boxes) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  const auto direction = [&] { return glm::normalize(dvec3(unit(random), unit(random), unit(random) + 1e-3)); };
+  std::size_t beside = 0;
+  for (int round = 0; round < 40; ++round) {
+    std::vector<OrientedBox> boxes{placed(dvec3(0.0), dvec3(3e4, 0.0, 2e4), slanted())};
+    for (int i = 0; i < 20; ++i) {
+      // Some are flat, some are lines.
+      const dvec3 half(std::exp(4.0 * unit(random)), i % 3 == 0 ? 0.0 : 2.0, i % 6 == 0 ? 0.0 : 1.0);
+      boxes.push_back(placed(30.0 * direction(), half, glm::rotate(dmat4(1.0), 3.0 * unit(random), direction())));
+    }
+    CasterBounds casters, first, second;
+    for (std::size_t i = 0; i < boxes.size(); ++i) (i % 2 == 0 ? first : second).grow(boxes[i]);
+    casters.grow(first);
+    casters.grow(second);
+    const CascadeSphere sphere{0, 10.0 * direction(), 6.0};
+    const FaceAxes axes = sun();
+    const ShadowFace face = cascade_face({}, axes, sphere, casters, kSquare, kRim);
+    const dvec3 forward(axes.forward);
+    EXPECT_LT(face.far_m, 1e3f) << "the ground's width does not count";
+    for (const OrientedBox& box : boxes) {
+      for (int i = 0; i < 200; ++i) {
+        const dvec3 point = box.center + box.half_axes * dvec3(unit(random), unit(random), unit(random));
+        const dvec3 from = point - sphere.center;
+        if (glm::length(from - forward * glm::dot(from, forward)) > sphere.radius_m) continue;
+        ++beside;
+        const double depth = glm::dot(forward, point - face.origin);
+        EXPECT_GE(depth, -1e-3);
+        EXPECT_LE(depth, static_cast<double>(face.far_m) + 1e-3);
+      }
+    }
+  }
+  EXPECT_GT(beside, 3000u);
 }
 
 TEST(CascadeFaces, have_generous_depths_where_casters_are_not_known) {
