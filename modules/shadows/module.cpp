@@ -94,7 +94,7 @@ class ShadowsModule final : public Module {
     std::vector<VisualizerInfo> views = shadow_visualizers();
     for (VisualizerInfo& view : shadow_reference_visualizers()) views.push_back(std::move(view));
     for (VisualizerInfo& view : final_list_visualizers()) views.push_back(std::move(view));
-    views.push_back(unculled_visualizer());
+    for (VisualizerInfo& view : unculled_visualizers()) views.push_back(std::move(view));
     return views;
   }
 

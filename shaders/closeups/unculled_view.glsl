@@ -3,9 +3,9 @@
 #ifndef GLOAM_SHADERS_CLOSEUPS_UNCULLED_VIEW_GLSL
 #define GLOAM_SHADERS_CLOSEUPS_UNCULLED_VIEW_GLSL
 
-// For visualizer shadow_unculled: the visibility that the map of one close-up pair leaves of its light, at every pixel
-// inside the pair's face. Unlike compose.glsl, without the umbra range, the tiles' lists and tests of whole tiles.
-// Before including this, define GLOAM_SHADOWS_KINDS: 1 for local lights, 4 for directional ones.
+// For visualizers shadow_unculled and shadow_filtered: the visibility that the map of one close-up pair leaves of its
+// light, at every pixel inside the pair's face. Unlike compose.glsl, without the umbra range, the tiles' lists and
+// tests of whole tiles. Before including this, define GLOAM_SHADOWS_KINDS: 1 for local lights, 4 for directional ones.
 
 #define GLOAM_SHADOWS_BINDING 6
 #define GLOAM_SMOOTH_SURFACE_BINDING 20

@@ -17,6 +17,8 @@
 namespace gloam {
 namespace {
 
+constexpr std::string_view kUnculled = kUnculledVisualizers[0], kFiltered = kUnculledVisualizers[1];
+
 /// The light's visibility in one of the visibility_view shaders.
 ImageRef visibility_of(FrameBuilder& frame, const shaders::ShownLightConstants& light, const ShadowsOutputs& shadows,
                        const char* name, DrawProgram program) {
@@ -36,29 +38,38 @@ void add_comparison(FrameBuilder& frame, ImageRef unculled, ImageRef drawn) {
   pass.read("unculled", unculled);
   pass.read("drawn", drawn);
   pass.read("closeups", closeups == nullptr ? ImageRef{} : closeups->visibility);
-  add_visualizer_targets(frame, pass, std::string(kUnculledVisualizer), gpu::Format::rgba32_float, gpu::LoadOp::clear);
+  add_visualizer_targets(frame, pass, std::string(kUnculled), gpu::Format::rgba32_float, gpu::LoadOp::clear);
   pass.draw_triangle();
 }
 
 }  // namespace
 
-VisualizerInfo unculled_visualizer() {
-  return {
-      .name = std::string(kUnculledVisualizer),
-      .module = "shadows",
-      .argument = "LIGHT",
-      .legend =
-          "visibility of the light evaluated at every pixel from its maps, without lists, masks, classification and "
-          "early-outs, close-ups included: black unlit, white fully lit, blue out of the light's reach; where the "
-          "drawn visibility differs: red drawn darker, cyan drawn brighter",
-      .knob = std::string(kShadowMode.name),
-      .value = text_of(kShadowMode, ShadowMode::deferred),
-      .shows_lists = true};
+std::vector<VisualizerInfo> unculled_visualizers() {
+  const std::string colors =
+      ": black unlit, white fully lit, blue out of the light's reach; where the drawn visibility differs: red drawn "
+      "darker, cyan drawn brighter";
+  std::vector<VisualizerInfo> views = {
+      {std::string(kUnculled), "shadows", "LIGHT",
+       "visibility of the light evaluated again at every pixel, from its maps and close-up maps, without lists, masks "
+       "and classification" +
+           colors},
+      {std::string(kFiltered), "shadows", "LIGHT",
+       "as shadow_unculled, with the filter of the standard maps run also where its search finds that nothing or "
+       "everything blocks" +
+           colors}};
+  for (VisualizerInfo& view : views) {
+    view.knob = kShadowMode.name;
+    view.value = text_of(kShadowMode, ShadowMode::deferred);
+    view.image = kUnculled;
+    view.shows_lists = true;
+  }
+  return views;
 }
 
 void add_unculled_view_passes(FrameBuilder& frame, OnceLog& once_log) {
   const std::string_view shown = frame.visualizer();
-  if (shown.substr(0, shown.find(':')) != kUnculledVisualizer || frame.find<ShadowsOutputs>() == nullptr) return;
+  const std::string_view stem = shown.substr(0, shown.find(':'));
+  if ((stem != kUnculled && stem != kFiltered) || frame.find<ShadowsOutputs>() == nullptr) return;
   if (find_final_lists(frame) == nullptr) {
     once_log.warning(frame.services().log,
                      "view " + std::string(shown) + " shows the picture as it is: " + reason_without_lists(frame));
@@ -69,8 +80,9 @@ void add_unculled_view_passes(FrameBuilder& frame, OnceLog& once_log) {
   const ShadowsOutputs shadows = frame.get<ShadowsOutputs>();
   ShadowsOutputs standard = shadows;
   standard.rows = shadows.standard_rows;
-  const ImageRef unculled = visibility_of(frame, *light, standard, "shadow_from_maps",
-                                          {shaders::shadows::unculled_view_frag, shadows.constants});
+  DrawProgram from_maps{shaders::shadows::unculled_view_frag, shadows.constants};
+  from_maps.constants.set("kFilterAll", stem == kFiltered ? 1u : 0u);
+  const ImageRef unculled = visibility_of(frame, *light, standard, "shadow_from_maps", std::move(from_maps));
   const ImageRef drawn = visibility_of(frame, *light, shadows, "shadow_visibility",
                                        drawn_visibility_program(shadows, shaders::shadows::visibility_view_frag,
                                                                 shaders::shadows::final_visibility_view_frag));

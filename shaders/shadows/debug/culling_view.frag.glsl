@@ -4,8 +4,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/common/math.glsl"
 
-// Visualizer shadow_unculled: the visibility of a light without culling in grey; pixels whose drawn visibility differs
-// in colour.
+// Visualizers shadow_unculled and shadow_filtered: the visibility of a light without culling in grey; pixels whose
+// drawn visibility differs in colour.
 
 layout(constant_id = 0) const uint kEncode = 0u;    // 1: the picture's format does not encode sRGB
 layout(constant_id = 1) const uint kCloseups = 0u;  // 1: `closeups` exists
