@@ -8,6 +8,7 @@
 #include "engine/render/outputs.h"
 #include "modules/closeups/compose/frame.h"
 #include "modules/closeups/compose/overlay.h"
+#include "modules/closeups/debug/unculled_pairs.h"
 #include "modules/lights/outputs.h"
 #include "shaders/closeups/closeups_shared.h"
 #include "shaders/closeups/shaders.h"
@@ -27,7 +28,7 @@ ComputeProgram compose_program(const ShadowsOutputs& shadows, bool directional, 
   return program;
 }
 
-shaders::CloseupConstants constants_of(const CloseupView& pair, const RenderView& view, const DirectionalLook& sun) {
+shaders::CloseupConstants constants_of(const CloseupView& pair, const FrameBuilder& frame) {
   shaders::CloseupConstants c{};
   c.near_m = pair.face.near_m;
   c.emitter_diameter_m = pair.emitter_diameter_m;
@@ -40,7 +41,10 @@ shaders::CloseupConstants constants_of(const CloseupView& pair, const RenderView
   c.first_tile = pair.tiles.begin;
   c.light = pair.light_index;
   if (!pair.directional) return c;
-  const shaders::ShadowCascade cascade = orthographic_constants(pair.face, view.position);
+  const std::vector<DirectionalLook> suns =
+      directional_looks(frame.world().view_resource<VisibleLights>(frame.view().id));
+  const DirectionalLook sun = pair.light_index < suns.size() ? suns[pair.light_index] : DirectionalLook{};
+  const shaders::ShadowCascade cascade = orthographic_constants(pair.face, frame.view().position);
   c.penumbra_m_per_m = pair.penumbra_m_per_m;
   c.row_u = cascade.row_u;
   c.row_v = cascade.row_v;
@@ -88,8 +92,6 @@ void write_final_lists(ComputePass& pass, FinalLists& lists) {
 /// `shadows`: with the filter for close-up maps and the atlas, pyramid and block of the close-up map.
 void compose_batch(FrameBuilder& frame, std::span<const CloseupView> pairs, const ShadowsOutputs& shadows) {
   const gpu::DeviceInfo& device = frame.services().device.info();
-  const std::vector<DirectionalLook> suns =
-      directional_looks(frame.world().view_resource<VisibleLights>(frame.view().id));
   FinalLists& lists = *frame.get<ShadowsOutputs>().final_lists;
   ComputePass pass(frame, "closeup_compose", compose_program(shadows, pairs.front().directional, device));
   read_geometry(pass, frame.get<GeometryOutputs>());
@@ -103,8 +105,7 @@ void compose_batch(FrameBuilder& frame, std::span<const CloseupView> pairs, cons
       pass.barrier();  // pairs may share tiles
       pass.use(compose_program(shadows, pair.directional, device));
     }
-    const bool sun = pair.directional && pair.light_index < suns.size();
-    pass.uniform("closeup", constants_of(pair, frame.view(), sun ? suns[pair.light_index] : DirectionalLook{}));
+    pass.uniform("closeup", constants_of(pair, frame));
     const uvec2 tiles = pair.tiles.end - pair.tiles.begin;
     pass.dispatch(tiles.x, tiles.y);
   }
@@ -148,6 +149,7 @@ void add_closeup_passes(FrameBuilder& frame, const CloseupKnobs& knobs) {
   if (closeups == nullptr || closeups->pairs.empty() || shadows == nullptr || drawer == nullptr) return;
   ExtraAtlas map = drawer->create(frame, frame.world().view_resource<CloseupSettings>(frame.view().id).map_size);
   CloseupOverlay overlay(knobs.draws_standard);
+  UnculledPairs unculled(frame);
   overlay.start(frame, closeups->overlay);
   ShadowsOutputs looked = knobs.single_fetches ? by_single_fetches(*shadows) : *shadows;
   looked.block = drawer->block(frame, map.size);
@@ -161,9 +163,11 @@ void add_closeup_passes(FrameBuilder& frame, const CloseupKnobs& knobs) {
     looked.atlas = map.atlas;
     looked.pyramid = map.pyramid;
     compose_batch(frame, pairs, looked);
+    for (const CloseupView& pair : pairs) unculled.add(frame, pair, looked, constants_of(pair, frame));
     overlay.add(frame, copied, map);
   }
   overlay.finish(frame);
+  unculled.finish(frame);
 }
 
 }  // namespace gloam

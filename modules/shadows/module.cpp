@@ -19,6 +19,7 @@
 #include "modules/shadows/debug/measures.h"
 #include "modules/shadows/debug/pick.h"
 #include "modules/shadows/debug/reference_visualizers.h"
+#include "modules/shadows/debug/unculled_view.h"
 #include "modules/shadows/debug/visualizers.h"
 #include "modules/shadows/filter/cookies.h"
 #include "modules/shadows/final_lists/buffers.h"
@@ -93,6 +94,7 @@ class ShadowsModule final : public Module {
     std::vector<VisualizerInfo> views = shadow_visualizers();
     for (VisualizerInfo& view : shadow_reference_visualizers()) views.push_back(std::move(view));
     for (VisualizerInfo& view : final_list_visualizers()) views.push_back(std::move(view));
+    for (VisualizerInfo& view : unculled_visualizers()) views.push_back(std::move(view));
     return views;
   }
 
@@ -109,6 +111,7 @@ class ShadowsModule final : public Module {
       add_shadow_reference_view_pass(frame, once_log_);
       add_final_list_view_pass(frame, once_log_);
       add_shadow_view_pass(frame, states_, once_log_);
+      add_unculled_view_passes(frame, once_log_);
     }
     if (phase == PassPhase::shading) keep_list_counters(frame);
     if (phase != PassPhase::lists) return;

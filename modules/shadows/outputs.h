@@ -141,6 +141,7 @@ struct ShadowsOutputs {
   gpu::Binding::BufferRange block;      ///< uniform: a ShadowBlock (shaders/shadows/shadows_shared.h)
   shaders::ShadowBlock block_values{};  ///< content of `block`
   ImageRef rows;  ///< rgba32f: light rows, GLOAM_SHADOW_ROW_TEXELS texels wide, one row per local light and per cascade
+  ImageRef standard_rows;  ///< `rows` without overlays: rows that refer to no copies
   /// Content of `rows`: a ShadowRow per local light; from block.cascade_row on, a CascadeRow per cascade.
   std::shared_ptr<const std::vector<shaders::ShadowRow>> row_values;
   ImageRef atlas;    ///< r32f or r16_unorm: reversed depth of all faces and mips; null without maps
@@ -224,6 +225,14 @@ struct FinalEntry {
 /// GLOAM_ALL_UNLIT and for slots beyond `words`.
 [[nodiscard]] float decode_visibility(FinalEntry entry, std::uint32_t pixel, std::span<const std::uint32_t> words,
                                       std::uint32_t visibility_bits);
+
+/// For visualizers "shadow_unculled:LIGHT" and "shadow_filtered:LIGHT": the visibility 0 … 1 that maps of withheld
+/// casters leave of this light, r32f, at every pixel of the view. The module that withholds casters puts it on the
+/// board in PassPhase::lists.
+struct UnculledCloseups {
+  ImageRef visibility;
+};
+inline constexpr std::string_view kUnculledVisualizers[] = {"shadow_unculled", "shadow_filtered"};
 
 /// Reserved tiles: shadow tiles whose final lists are complete, even if others need too much. A later module that adds
 /// to final lists puts this on the board in PassPhase::announce; it can then rely on lists in these tiles.

@@ -105,6 +105,7 @@ void add_shadow_passes(FrameBuilder& frame, ShadowStates& states) {
   ShadowsOutputs outputs{.block = uploads.block,
                          .block_values = uploads.block_values,
                          .rows = uploads.rows,
+                         .standard_rows = uploads.rows,
                          .row_values = uploads.row_values,
                          .cookies = uploads.cookies,
                          .traced = uploads.traced};

@@ -39,14 +39,9 @@ shared uint place;          // index of the light's entry in `entries`
 shared uint slot;           // the entry's slot before, then after
 shared uint old_words[16];  // its visibilities before
 
-// Per-pair data of the light, the same for all pixels.
+#include "shaders/closeups/light_of_pair.glsl"
+
 #if GLOAM_SHADOWS_KINDS == 4
-struct LightOfPair {
-  uint light;
-};
-
-LightOfPair light_of_pair() { return LightOfPair(closeup.light); }
-
 // Homogeneous position in the face: x and y in texels, z is the depth; w is 1.
 vec4 place_in_face(LightOfPair l, vec3 position) {
   vec4 p = vec4(position, 1.0);
@@ -55,25 +50,10 @@ vec4 place_in_face(LightOfPair l, vec3 position) {
 
 float penumbra_texels() { return closeup.penumbra_m_per_m * closeup.depth_m / closeup.texel_m; }
 
-ShadowPoint shadow_point(LightOfPair l, ShadowReceiver r) {
-  SunReceiver s = sun_receiver(closeup.direction, closeup.penumbra_m_per_m, r);
-  try_cascade(s,
-              ShadowCascade(closeup.row_u, closeup.row_v, closeup.row_depth, closeup.origin, closeup.size,
-                            closeup.texel_m, closeup.depth_m, 0.0, vec2(0.0)),
-              true);
-  return sun_shadow_point(s, r.subsurface);
-}
-
 float light_cosine(LightOfPair l, vec3 position, vec3 normal) {
   return sun_cosine(closeup.brightest, closeup.direction, normal);
 }
 #else
-struct LightOfPair {
-  LocalLight light;
-};
-
-LightOfPair light_of_pair() { return LightOfPair(fetch_light(light_texels, closeup.light)); }
-
 // Homogeneous position in the face: x and y in texels, z is the depth, all times w. w: metres in front of the light,
 // must be > 0.
 vec4 place_in_face(LightOfPair l, vec3 position) {
@@ -86,17 +66,6 @@ vec4 place_in_face(LightOfPair l, vec3 position) {
 // Width of a penumbra in texels, per unit of depth between blocker and receiver.
 float penumbra_texels() {
   return closeup.emitter_diameter_m * closeup.size / (closeup.near_m * 2.0 * closeup.tan_half);
-}
-
-ShadowPoint shadow_point(LightOfPair l, ShadowReceiver r) {
-  LightFaces face;
-  face.along_x = closeup.origin.xxx;
-  face.along_y = closeup.origin.yyy;
-  LocalShadow shadow =
-      LocalShadow(l.light.position, vec4(GLOAM_SHADOW_SPOT, closeup.near_m, closeup.emitter_diameter_m, closeup.size),
-                  vec4(closeup.right, closeup.tan_half), vec4(closeup.up, closeup.tan_inner),
-                  cross(closeup.up, closeup.right), face);
-  return local_shadow_point(shadow, r);
 }
 
 float light_cosine(LightOfPair l, vec3 position, vec3 normal) { return local_light_cosine(l.light, position, normal); }

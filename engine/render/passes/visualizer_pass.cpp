@@ -10,11 +10,13 @@
 
 namespace gloam {
 
-void add_visualizer_targets(FrameBuilder& frame, DrawPass& pass, std::string name, gpu::Format values,
-                            gpu::LoadOp picture) {
+ImageRef add_visualizer_targets(FrameBuilder& frame, DrawPass& pass, std::string name, gpu::Format values,
+                                gpu::LoadOp picture) {
   ImageRef& color = frame.get<TargetOutput>().color;
   color = pass.target(color, picture);
-  frame.expose(pass.target(create_view_image(frame, std::move(name), values), gpu::LoadOp::clear));
+  const ImageRef written = pass.target(create_view_image(frame, std::move(name), values), gpu::LoadOp::clear);
+  frame.expose(written);
+  return written;
 }
 
 gpu::SpecConstants visualizer_constants(FrameBuilder& frame) {

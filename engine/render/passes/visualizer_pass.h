@@ -12,9 +12,9 @@ namespace gloam {
 
 /// Declares the targets of a visualizer's pass: the view's picture, which it is drawn over (or in place of:
 /// LoadOp::clear), and a new transient image `name` of the view's size, cleared to 0, for plain values that tests and
-/// tools read.
-void add_visualizer_targets(FrameBuilder& frame, DrawPass& pass, std::string name, gpu::Format values,
-                            gpu::LoadOp picture = gpu::LoadOp::load);
+/// tools read. Returns the version of that image that later passes read.
+ImageRef add_visualizer_targets(FrameBuilder& frame, DrawPass& pass, std::string name, gpu::Format values,
+                                gpu::LoadOp picture = gpu::LoadOp::load);
 
 /// Specialisation constants of visualizers' shaders: kEncode, 1 if the shader encodes sRGB itself; and, in shaders with
 /// a heat scale, kHeatRange, the factor on its end (shaders/common/heat.glsl).

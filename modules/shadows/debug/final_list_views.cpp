@@ -30,7 +30,8 @@ void draw(FrameBuilder& frame, const std::string& name, gpu::ShaderCode fragment
                               .push = push});
 }
 
-/// Why a frame with shadows has no final lists.
+}  // namespace
+
 std::string reason_without_lists(const FrameBuilder& frame) {
   const KnobRegistry& knobs = frame.knobs();
   const ShadowMode mode = knobs.value(kShadowMode);
@@ -41,8 +42,6 @@ std::string reason_without_lists(const FrameBuilder& frame) {
     return "there are no final lists with " + assignment_of(kLightCulling, LightCulling::brute);
   return "no light in view has a shadow map";
 }
-
-}  // namespace
 
 std::vector<VisualizerInfo> final_list_visualizers() {
   std::vector<VisualizerInfo> views = {

@@ -14,6 +14,9 @@ namespace gloam {
 /// Names and legends of the visualizers of final lists, except light_list, which belongs to the lights module.
 [[nodiscard]] std::vector<VisualizerInfo> final_list_visualizers();
 
+/// Why a frame with shadows has no final lists, for warnings.
+[[nodiscard]] std::string reason_without_lists(const FrameBuilder& frame);
+
 /// Puts LightListViewTaken on the board when the frame has final lists: this module then draws visualizer light_list
 /// instead of the lights module. Call after add_shadow_passes().
 void take_light_list_view(FrameBuilder& frame);

@@ -20,14 +20,6 @@
 namespace gloam {
 namespace {
 
-/// The light's kind (GLOAM_SHADOWS_SPOTS, …), so that the shader can be compiled for it alone.
-std::uint32_t kind_of(const FrameBuilder& frame, const shaders::ShownLightConstants& light) {
-  if (light.directional != 0) return GLOAM_SHADOWS_SUNS;
-  const auto& rows = frame.world().view_resource<ViewFaces>(frame.view().id).rows;
-  const float kind = light.light < rows.size() ? rows[light.light].kind : static_cast<float>(GLOAM_SHADOW_NONE);
-  return kind == static_cast<float>(GLOAM_SHADOW_CUBE) ? GLOAM_SHADOWS_CUBES : GLOAM_SHADOWS_SPOTS;
-}
-
 /// The square of each placed face in the picture; the atlas fills the picture's shorter side.
 std::vector<shaders::AtlasFaceConstants> atlas_squares(const ViewFaces& view_faces, const RenderView& view,
                                                        const ViewMapState& kept) {
@@ -67,6 +59,13 @@ void add_atlas_view(FrameBuilder& frame, const ShadowsOutputs& shadows, const Vi
 
 }  // namespace
 
+std::uint32_t kind_of(const FrameBuilder& frame, const shaders::ShownLightConstants& light) {
+  if (light.directional != 0) return GLOAM_SHADOWS_SUNS;
+  const auto& rows = frame.world().view_resource<ViewFaces>(frame.view().id).rows;
+  const float kind = light.light < rows.size() ? rows[light.light].kind : static_cast<float>(GLOAM_SHADOW_NONE);
+  return kind == static_cast<float>(GLOAM_SHADOW_CUBE) ? GLOAM_SHADOWS_CUBES : GLOAM_SHADOWS_SPOTS;
+}
+
 DrawProgram drawn_visibility_program(const ShadowsOutputs& shadows, const gpu::ShaderCode& from_maps,
                                      const gpu::ShaderCode& from_lists) {
   DrawProgram program{.fragment = from_maps, .constants = shadows.constants};
@@ -78,8 +77,8 @@ DrawProgram drawn_visibility_program(const ShadowsOutputs& shadows, const gpu::S
   return program;
 }
 
-void draw_shadow_picture(FrameBuilder& frame, ShadowPicture picture) {
-  const ShadowsOutputs& shadows = frame.get<ShadowsOutputs>();
+ImageRef draw_shadow_picture(FrameBuilder& frame, ShadowPicture picture) {
+  const ShadowsOutputs& shadows = picture.shadows ? *picture.shadows : frame.get<ShadowsOutputs>();
   const bool over = picture.program.blend != gpu::BlendMode::opaque;
   picture.program.constants.set(visualizer_constants(frame));
   DrawPass pass(frame, picture.pass, picture.program);
@@ -88,9 +87,10 @@ void draw_shadow_picture(FrameBuilder& frame, ShadowPicture picture) {
   read_shadows(pass, shadows);
   if (shadows.final_lists) read_final_lists(pass, *shadows.final_lists);
   pass.push_bytes(picture.push);
-  add_visualizer_targets(frame, pass, std::move(picture.values), picture.format,
-                         over ? gpu::LoadOp::load : gpu::LoadOp::clear);
+  const ImageRef values = add_visualizer_targets(frame, pass, std::move(picture.values), picture.format,
+                                                 over ? gpu::LoadOp::load : gpu::LoadOp::clear);
   pass.draw_triangle();
+  return values;
 }
 
 std::vector<VisualizerInfo> shadow_visualizers() {

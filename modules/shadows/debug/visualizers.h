@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "engine/render/module.h"
 #include "modules/shadows/maps/state.h"
 #include "modules/shadows/outputs.h"
+#include "shaders/shadows/maps/map_shared.h"
 
 namespace gloam {
 
@@ -24,16 +26,20 @@ struct ShadowPicture {
   /// Without constant 0, which is added: whether the shader encodes sRGB. With blending it draws over the view's
   /// picture, otherwise in its place.
   DrawProgram program;
-  std::span<const std::byte> push = {};  ///< push constants; none: the shader declares none
+  std::span<const std::byte> push = {};     ///< push constants; none: the shader declares none
+  const ShadowsOutputs* shadows = nullptr;  ///< bound in place of the board's
 };
 /// Adds the visualizer's pass. Binds what its shaders declare of the view's geometry, lights, shadows and final lists.
-/// ShadowsOutputs must be on the board.
-void draw_shadow_picture(FrameBuilder& frame, ShadowPicture picture);
+/// ShadowsOutputs must be on the board. Returns the version of the image of values that later passes read.
+ImageRef draw_shadow_picture(FrameBuilder& frame, ShadowPicture picture);
 
 /// A program that shows visibilities as they are drawn (shaders/shadows/debug/drawn_visibility.glsl): `from_lists` if
 /// the frame has final lists, with their constants, otherwise `from_maps`.
 [[nodiscard]] DrawProgram drawn_visibility_program(const ShadowsOutputs& shadows, const gpu::ShaderCode& from_maps,
                                                    const gpu::ShaderCode& from_lists);
+
+/// The light's kind (GLOAM_SHADOWS_SPOTS, …), so that a shader can be compiled for it alone.
+[[nodiscard]] std::uint32_t kind_of(const FrameBuilder& frame, const shaders::ShownLightConstants& light);
 
 /// Names and legends of the visualizers of shadow maps.
 [[nodiscard]] std::vector<VisualizerInfo> shadow_visualizers();

@@ -129,7 +129,7 @@ void ShadowMapDrawer::draw(FrameBuilder& frame, const char* name, std::span<cons
                                {tools_->knobs.simplified, tools_->knobs.subsurface_backs}));
     left = left.subspan(counts[i]);
   }
-  work->faces = plan_faces(std::move(faces));
+  work->faces = plan_faces(std::move(faces), kExtraTexels);
   GLOAM_ASSERT(work->faces.plan.batches.size() == 1, "maps of one size, few enough for one image, are drawn at a time");
   ShadowKnobs knobs = tools_->knobs;
   knobs.atlas_size = into.size;

@@ -128,10 +128,10 @@ ComputeProgram shadow_mips_in_place_program(bool d16) {
 
 ComputeProgram shadow_backgrounds_program() { return {shaders::shadows::backgrounds_comp}; }
 
-FacePlan plan_faces(std::vector<DrawnFace> faces) {
+FacePlan plan_faces(std::vector<DrawnFace> faces, std::uint32_t most_texels) {
   std::vector<std::uint32_t> sizes;
   for (const DrawnFace& face : faces) sizes.push_back(face.face.square.size);
-  return {std::move(faces), plan_scratch(sizes)};
+  return {std::move(faces), plan_scratch(sizes, most_texels)};
 }
 
 ShadowMipWork plan_shadow_mips(FrameBuilder& frame, const FacePlan& backgrounds, const FacePlan& faces,

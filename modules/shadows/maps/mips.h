@@ -35,7 +35,8 @@ struct FacePlan {
   std::vector<DrawnFace> faces;
   ScratchPlan plan;
 };
-[[nodiscard]] FacePlan plan_faces(std::vector<DrawnFace> faces);
+/// most_texels: as for plan_scratch().
+[[nodiscard]] FacePlan plan_faces(std::vector<DrawnFace> faces, std::uint32_t most_texels = kScratchTexels);
 
 /// The dispatches for one frame's draws: backgrounds.comp once per batch of backgrounds; mips.comp once per batch,
 /// which moves the batch's faces from the scratch image into the atlas; then mips.comp once per run of coarser mips,

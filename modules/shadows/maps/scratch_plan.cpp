@@ -8,11 +8,13 @@
 namespace gloam {
 namespace {
 
-std::size_t most_layers(std::uint32_t size) { return std::clamp(kScratchTexels / size / size, 1u, kMostScratchLayers); }
+std::size_t most_layers(std::uint32_t size, std::uint32_t most_texels) {
+  return std::clamp(most_texels / size / size, 1u, kMostScratchLayers);
+}
 
 }  // namespace
 
-ScratchPlan plan_scratch(std::span<const std::uint32_t> sizes) {
+ScratchPlan plan_scratch(std::span<const std::uint32_t> sizes, std::uint32_t most_texels) {
   ScratchPlan plan;
   std::vector<std::uint32_t> order(sizes.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -20,7 +22,7 @@ ScratchPlan plan_scratch(std::span<const std::uint32_t> sizes) {
   for (const std::uint32_t item : order) {
     const std::uint32_t size = sizes[item];
     if (plan.batches.empty() || plan.batches.back().size != size ||
-        plan.batches.back().items.size() == most_layers(size))
+        plan.batches.back().items.size() == most_layers(size, most_texels))
       plan.batches.push_back({size, {}});
     plan.batches.back().items.push_back(item);
   }

@@ -20,11 +20,13 @@ struct ScratchPlan {
   [[nodiscard]] std::uint64_t texels() const;
 };
 
-/// Most texels of a batch, unless a single face has more.
+/// Most texels of a batch of standard maps.
 inline constexpr std::uint32_t kScratchTexels = 1024 * 1024;
 inline constexpr std::uint32_t kMostScratchLayers = 256;
 
 /// Sorts faces into batches of one size, the largest size first. sizes: texels of each face's side, powers of two.
-[[nodiscard]] ScratchPlan plan_scratch(std::span<const std::uint32_t> sizes);
+/// most_texels: of a batch, unless a single face has more.
+[[nodiscard]] ScratchPlan plan_scratch(std::span<const std::uint32_t> sizes,
+                                       std::uint32_t most_texels = kScratchTexels);
 
 }  // namespace gloam

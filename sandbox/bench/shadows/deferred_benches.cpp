@@ -23,7 +23,9 @@
 namespace gloam {
 namespace {
 
-constexpr const char* kDeferredScene = "builtin:shadow_grid";  // unless the user names one
+// Scenes unless the user names one: about as many shadowed lights a tile as in the paper, and eight close-up pairs.
+constexpr const char* kDeferredScene = "builtin:shadow_grid";
+constexpr const char* kSubjectsScene = "builtin:closeups";
 constexpr int kDeferredRounds = 11;
 constexpr int kDeferredWarmUp = 2;
 
@@ -84,7 +86,12 @@ double equal_share(const Picture& a, const Picture& b) {
   return static_cast<double>(equal) / std::max(1.0, static_cast<double>(a.rgba.size() / 4));
 }
 
-using SharedDeferred = std::shared_ptr<Once<DeferredWayCosts>>;
+/// A scene and what was measured in it.
+struct DeferredCase {
+  const char* scene;
+  Once<DeferredWayCosts> costs;
+};
+using SharedDeferred = std::shared_ptr<DeferredCase>;
 
 template <class Value>
 BenchRow way_row(std::string id, std::string unit, SharedDeferred shared, Value value) {
@@ -92,14 +99,14 @@ BenchRow way_row(std::string id, std::string unit, SharedDeferred shared, Value 
   row.id = "shadows." + std::move(id);
   row.unit = std::move(unit);
   row.run = [shared = std::move(shared), value](BenchContext& context) -> Result<BenchValue> {
-    const auto costs = shared->get([&]() -> Result<DeferredWayCosts> {
-      auto session = context.session_or(kDeferredScene);
+    const auto costs = shared->costs.get([&]() -> Result<DeferredWayCosts> {
+      auto session = context.session_or(shared->scene);
       if (!session) return session.error();
       return measure_deferred_ways(**session, context.options());
     });
     if (!costs) return costs.error();
     BenchValue result = value(**costs);
-    result.scene = context.scene_or(kDeferredScene);
+    result.scene = context.scene_or(shared->scene);
     return result;
   };
   return row;
@@ -200,7 +207,8 @@ Table1Columns columns_of(const DeferredWayCost& cost) {
   return columns;
 }
 
-void add_columns(BenchRegistry& registry, const SharedDeferred& shared) {
+/// stem: ids begin with it.
+void add_columns(BenchRegistry& registry, const std::string& stem, const SharedDeferred& shared) {
   constexpr std::pair<const char*, DeferredWay> kRows[] = {
       {"monolithic", kMono}, {"deferred", kTiles}, {"deferred_8_closeups", kPairs}};
   constexpr std::pair<const char*, std::vector<double> Table1Columns::*> kColumns[] = {
@@ -208,7 +216,7 @@ void add_columns(BenchRegistry& registry, const SharedDeferred& shared) {
       {".closeup", &Table1Columns::closeup_ns},
       {".lighting", &Table1Columns::lighting_ns}};
   for (const auto& [name, way] : kRows) {
-    const std::string id = std::string("table1.columns.") + name;
+    const std::string id = stem + name;
     for (const auto& [column, times] : kColumns)
       registry.add(way_row(id + column, "ms", shared, [way = way, times = times](const DeferredWayCosts& c) {
         return per_item(columns_of(c[way]).*times, kNsPerMs, c[way].hash);
@@ -244,13 +252,30 @@ void add_shares(BenchRegistry& registry, const SharedDeferred& shared) {
                          }));
 }
 
+/// The columns of FF table 1 in a scene with close-up subjects.
+void add_rows_with_subjects(BenchRegistry& registry) {
+  const auto shared = std::make_shared<DeferredCase>(kSubjectsScene);
+  add_columns(registry, "table1.subjects.", shared);
+  registry.add(
+      way_row("table1.subjects.deferred_8_closeups.over_deferred", "ratio", shared, [](const DeferredWayCosts& c) {
+        return ratio_of(c[kPairs].all_ns, c[kTiles].all_ns, hash_of_both(c[kPairs].hash, c[kTiles].hash));
+      }));
+  registry.add(way_row("table1.subjects.closeup_pairs", "pairs", shared, [](const DeferredWayCosts& c) {
+    return single_value(counter_of(c[kPairs].report, "closeups.pairs"), c[kPairs].hash);
+  }));
+  registry.add(way_row("table1.subjects.lights_a_tile", "lights", shared, [](const DeferredWayCosts& c) {
+    return single_value(counter_of(c[kTiles].report, "lights.per_tile_accurate_mean"), c[kTiles].hash);
+  }));
+}
+
 }  // namespace
 
 void add_shadow_deferred_benches(BenchRegistry& registry) {
-  const auto shared = std::make_shared<Once<DeferredWayCosts>>();
+  const auto shared = std::make_shared<DeferredCase>(kDeferredScene);
   add_deferred_table(registry, shared);
-  add_columns(registry, shared);
+  add_columns(registry, "table1.columns.", shared);
   add_shares(registry, shared);
+  add_rows_with_subjects(registry);
 }
 
 }  // namespace gloam

@@ -4,7 +4,8 @@
 #define GLOAM_SHADERS_SHADOWS_SHADOW_VISIBILITY_VIEW_GLSL
 
 // Visualizer shadow: the visibility of one light at each pixel. Black: unlit, white: fully lit, blue: the light does
-// not reach the pixel. Transmittance where light from behind passes. See drawn_visibility.glsl.
+// not reach the pixel. Transmittance where light from behind passes. See drawn_visibility.glsl. With GLOAM_UNCULLED,
+// unculled_visibility.glsl.
 
 #define GLOAM_SHADOWS_BINDING 6
 #define GLOAM_SMOOTH_SURFACE_BINDING 20
@@ -13,7 +14,11 @@
 #include "shaders/render/view_api.glsl"
 #include "shaders/shadows/maps/map_shared.h"
 #include "shaders/shadows/shadows_api.glsl"
+#ifdef GLOAM_UNCULLED
+#include "shaders/shadows/debug/unculled_visibility.glsl"
+#else
 #include "shaders/shadows/debug/drawn_visibility.glsl"
+#endif
 
 layout(constant_id = 0) const uint kEncode = 0u;  // 1: the picture's format does not encode sRGB
 
@@ -28,6 +33,14 @@ layout(set = 0, binding = 21) uniform sampler2D emissive_image;
 
 layout(location = 0) out vec4 out_color;
 layout(location = 1) out vec4 out_visibility;
+
+float visibility_at(uvec2 pixel, vec3 light_vector, ShadowReceiver r, bool faces, float extinction_m) {
+#ifdef GLOAM_UNCULLED
+  return unculled_visibility(shown.directional != 0u, shown.light, light_vector, r, faces, extinction_m);
+#else
+  return drawn_visibility(pixel, shown.directional != 0u, shown.light, light_vector, r, faces, extinction_m);
+#endif
+}
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -47,9 +60,7 @@ void main() {
   if (kTransmission != 0u)
     extinction = extinction_behind(decode_extinction(texelFetch(emissive_image, pixel, 0).a), normal, toward);
   bool faces = dot(normal, toward) > 0.0 || extinction > 0.0;
-  float visibility = depth > 0.0 && reaches
-                         ? drawn_visibility(uvec2(pixel), directional, shown.light, light_vector, r, faces, extinction)
-                         : -1.0;
+  float visibility = depth > 0.0 && reaches ? visibility_at(uvec2(pixel), light_vector, r, faces, extinction) : -1.0;
   vec3 color = visibility < 0.0 ? vec3(0.0, 0.0, 0.04) : vec3(visibility);
   out_color = vec4(kEncode != 0u ? linear_to_srgb(color) : color, 1.0);
   out_visibility = vec4(visibility, 0.0, 0.0, 1.0);

@@ -154,7 +154,8 @@ TEST(BenchRegistry, has_the_rows_of_deferred_shadows) {
   for (const char* id :
        {"table1.monolithic", "table1.deferred", "table1.deferred_unclassified", "table1.deferred_8_closeups",
         "table1.deferred_8_closeups_all", "table1.deferred_8_closeups_over_monolithic", "figure13.classify",
-        "curve.lights.8.generate", "curve.size.1920x1080.monolithic", "frame.maps_share"})
+        "table1.columns.deferred.shadow", "table1.subjects.deferred_8_closeups.closeup", "curve.lights.8.generate",
+        "curve.size.1920x1080.monolithic", "frame.maps_share"})
     EXPECT_TRUE(rows.contains("shadows." + std::string(id))) << id;
 }
 

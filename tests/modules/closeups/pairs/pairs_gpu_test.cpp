@@ -138,16 +138,22 @@ TEST_F(CloseupPairs, that_share_the_map_give_the_same_picture) {
   // Of equal size in view, so that their maps have the same size.
   left = put_block(dvec3(-0.45, 1.0, 0.0), dvec3(0.7, 0.1, 0.7));
   right = put_block(dvec3(0.45, 1.0, 0.0), dvec3(0.7, 0.1, 0.7));
-  CloseupShot first;
-  for (const char* batch : {"1", "2", "4"}) {
-    set("closeups.batch", batch);
-    const CloseupShot taken = second_shot();
-    ASSERT_EQ(taken.views.pairs.size(), 4u);
-    for (const CloseupView& pair : taken.views.pairs)
-      ASSERT_EQ(pair.face.square.size, taken.views.pairs[0].face.square.size);
-    if (first.picture.rgba.empty()) first = taken;
-    EXPECT_LE(steps_apart(taken.picture, first.picture), 1.0) << batch;
+  std::uint32_t largest = 0;
+  for (const char* density : {"1", "8"}) {
+    set("closeups.texels_per_pixel", density);
+    CloseupShot first;
+    for (const char* batch : {"4", "2", "1"}) {
+      set("closeups.batch", batch);
+      const CloseupShot taken = second_shot();
+      ASSERT_EQ(taken.views.pairs.size(), 4u);
+      for (const CloseupView& pair : taken.views.pairs)
+        ASSERT_EQ(pair.face.square.size, taken.views.pairs[0].face.square.size);
+      largest = taken.views.pairs[0].face.square.size;
+      if (first.picture.rgba.empty()) first = taken;
+      EXPECT_LE(steps_apart(taken.picture, first.picture), 1.0) << density << ' ' << batch;
+    }
   }
+  EXPECT_EQ(largest, 1024u) << "a quarter of the map: four of these are more than one batch of standard maps";
 }
 
 TEST_F(CloseupPairs, that_share_a_map_with_larger_ones_are_as_good) {

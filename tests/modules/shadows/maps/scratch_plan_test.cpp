@@ -41,6 +41,12 @@ TEST(ScratchPlan, four_faces_of_512_fill_one_batch_and_the_next_begins_another) 
   EXPECT_EQ(plan_scratch(std::vector<std::uint32_t>(5, 512)).batches.size(), 2u);
 }
 
+TEST(ScratchPlan, batches_may_be_larger_than_those_of_standard_maps) {
+  const std::vector<std::uint32_t> sizes(4, 1024);
+  EXPECT_EQ(plan_scratch(sizes).batches.size(), 4u);
+  EXPECT_EQ(plan_scratch(sizes, 4 * 1024 * 1024).batches.size(), 1u);
+}
+
 TEST(ScratchPlan, the_largest_face_has_an_image_of_its_own) {
   const ScratchPlan plan = plan_scratch(std::vector<std::uint32_t>{16, 4096, 4096});
   ASSERT_EQ(plan.batches.size(), 3u);
