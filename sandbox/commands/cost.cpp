@@ -16,6 +16,7 @@
 #include "sandbox/commands/sweep.h"
 #include "sandbox/output/file_io.h"
 #include "sandbox/output/identity.h"
+#include "sandbox/output/phase_times.h"
 #include "sandbox/output/pictures/picture_folder.h"
 #include "sandbox/output/progress_bar.h"
 #include "sandbox/output/time_left.h"
@@ -51,6 +52,7 @@ class ConsoleProgress final : public CostProgress {
   }
 
   Status picture(const std::string& name, const Picture& picture) override { return pictures_.save(name, picture); }
+  void phase(CostPhase phase) override { phases_.begin(phase); }
   bool has_picture(const std::string& name) override { return pictures_.has(name); }
 
   void finished(const LedgerRow& row, bool resumed) override {
@@ -59,8 +61,10 @@ class ConsoleProgress final : public CostProgress {
     left_.finished(resumed ? std::nullopt : std::optional(took_s));
     if (quiet_ || console_.shows_progress()) return;
     const std::string times = row.is_default ? std::string(": the default")
-                                             : formatted(": %.2f (%.2f-%.2f) of the default's time, %u pairs of frames",
-                                                         row.ratio, row.ratio_low, row.ratio_high, row.pairs);
+                              : row.pairs == 0
+                                  ? ": the default's picture, not timed"
+                                  : formatted(": %.2f (%.2f-%.2f) of the default's time, %u pairs of frames", row.ratio,
+                                              row.ratio_low, row.ratio_high, row.pairs);
     console_.print(row.knob + "=" + row.value + times +
                    (resumed ? " (measured before)" : time_left_text(left_.seconds())) + "\n");
     // Flush, so that the reader of a pipe gets the line at once. A failure to write is reported at the end.
@@ -87,6 +91,8 @@ class ConsoleProgress final : public CostProgress {
     static_cast<void>(console_.flush());
   }
 
+  /// What measuring took, by kinds of work, in one line.
+  [[nodiscard]] std::string times() { return phases_.text(); }
   [[nodiscard]] std::size_t resumed() const { return resumed_; }
   [[nodiscard]] std::size_t rows() const { return resumed_ + measured_; }
 
@@ -101,6 +107,7 @@ class ConsoleProgress final : public CostProgress {
   std::size_t cameras_ = 1;
   Clock::time_point begin_;  ///< of the row that is measured
   TimeLeft left_;
+  PhaseTimes phases_;
 };
 
 /// All that a ledger can vary: the modules' knobs and the resolution scale.
@@ -293,6 +300,7 @@ Status measure_scene(const CommandContext& context) {
   if (progress.resumed() > 0)
     context.console.print(std::to_string(progress.resumed()) + " of " + std::to_string(progress.rows()) +
                           " rows were measured before\n");
+  context.console.print(progress.times());
   context.console.print("wrote " + options.out + "/report.html, ledger.json and ledger.csv\n");
   return {};
 }
