@@ -72,13 +72,13 @@ class ConsoleProgress final : public CostProgress {
   }
 
   /// The next rows are of this camera, the one of index `camera` of `cameras`.
-  void begin_camera(std::size_t camera, std::size_t cameras, const Options& options) {
+  void begin_camera(std::size_t camera, std::size_t cameras, const MeasuredCamera& measured) {
     camera_ = camera;
     cameras_ = cameras;
     if (cameras > 1 && !quiet_ && !console_.shows_progress())
       console_.print(formatted("camera %zu of %zu: ", camera + 1, cameras) +
-                     (options.camera.empty() ? std::string("the first") : options.camera) +
-                     formatted(" at %g s\n", options.time_s));
+                     (measured.options.camera.empty() ? std::string("the first") : measured.name()) +
+                     formatted(" at %g s\n", measured.options.time_s));
   }
 
   void finished_point(const LedgerPoint& point, bool resumed) override {
@@ -240,28 +240,29 @@ Result<MeasuredCameras> measure_cameras(const Options& options, const std::vecto
                                         const CommandContext& context, ConsoleProgress& progress) {
   MeasuredCameras measured;
   std::vector<Ledger> ledgers;
-  std::vector<Options> cameras = {options};
+  std::vector<MeasuredCamera> cameras = {{.options = options}};
   for (std::size_t i = 0; i < cameras.size(); ++i) {
-    auto opened = open_session(cameras[i], context.log);
+    auto opened = open_session(cameras[i].options, context.log);
     if (!opened) return opened.error();
     Session& session = **opened;
     if (i == 0) {
-      auto all = options_of_cameras(options, session);
+      auto all = measured_cameras(options, session);
       if (!all) return all.error();
       cameras = std::move(all).value();
-      const auto camera = find_camera(session.world, session.info, cameras.front().camera);
-      if (!camera) return camera.error();
-      session.camera = *camera;
       for (const Knob& knob : session.renderer->knobs().knobs())
         measured.knobs.push_back({knob.name, knob.meaning, value_text(knob, knob.default_number)});
     }
     if (cameras.size() > 1 && options.points.value_or(0) > 0)
       return Error{ErrorKind::usage, "--points measures combinations in one camera and at one time"};
-    if (cameras.size() > 1) cameras[i].points = 0;
-    GLOAM_TRY(ensure_baked(session, cameras[i], context.log, &context.console));
-    SessionCosts costs(session, cameras[i]);
+    GLOAM_TRY(place_camera(cameras[i], session));
+    Options& own = cameras[i].options;
+    if (cameras.size() > 1) own.points = 0;
+    GLOAM_TRY(ensure_baked(session, own, context.log, &context.console));
+    SessionCosts costs(session, own);
     progress.begin_camera(i, cameras.size(), cameras[i]);
-    auto ledger = measure_costs(make_request(session, cameras[i], chosen), costs, progress);
+    CostRequest request = make_request(session, own, chosen);
+    request.header.camera = cameras[i].name();
+    auto ledger = measure_costs(request, costs, progress);
     if (!ledger) return ledger.error();
     GLOAM_TRY(session.check_validation());
     ledgers.push_back(std::move(ledger).value());
