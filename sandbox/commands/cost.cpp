@@ -16,10 +16,10 @@
 #include "sandbox/commands/sweep.h"
 #include "sandbox/output/file_io.h"
 #include "sandbox/output/identity.h"
-#include "sandbox/output/phase_times.h"
 #include "sandbox/output/pictures/picture_folder.h"
 #include "sandbox/output/progress_bar.h"
 #include "sandbox/output/time_left.h"
+#include "sandbox/output/work_times.h"
 #include "sandbox/session/baking/captures.h"
 #include "sandbox/session/drawing/session_costs.h"
 #include "sandbox/session/loading/scene_files.h"
@@ -107,7 +107,7 @@ class ConsoleProgress final : public CostProgress {
   std::size_t cameras_ = 1;
   Clock::time_point begin_;  ///< of the row that is measured
   TimeLeft left_;
-  PhaseTimes phases_;
+  WorkTimes phases_;
 };
 
 /// All that a ledger can vary: the modules' knobs and the resolution scale.

@@ -12,11 +12,11 @@
 namespace gloam {
 
 /// Sums the time on the wall of each kind of work of a ledger.
-class PhaseTimes {
+class WorkTimes {
  public:
   using Clock = std::chrono::steady_clock;
   /// now: the clock.
-  explicit PhaseTimes(std::function<Clock::time_point()> now = &Clock::now);
+  explicit WorkTimes(std::function<Clock::time_point()> now = &Clock::now);
 
   /// Work of another kind begins.
   void begin(CostPhase phase);

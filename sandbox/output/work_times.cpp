@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "sandbox/output/phase_times.h"
+#include "sandbox/output/work_times.h"
 
 #include <algorithm>
 #include <utility>
@@ -10,16 +10,16 @@
 
 namespace gloam {
 
-PhaseTimes::PhaseTimes(std::function<Clock::time_point()> now) : now_(std::move(now)), begin_(now_()) {}
+WorkTimes::WorkTimes(std::function<Clock::time_point()> now) : now_(std::move(now)), begin_(now_()) {}
 
-void PhaseTimes::begin(CostPhase phase) {
+void WorkTimes::begin(CostPhase phase) {
   const Clock::time_point now = now_();
   seconds_.at(static_cast<std::size_t>(phase_)) += std::chrono::duration<double>(now - begin_).count();
   phase_ = phase;
   begin_ = now;
 }
 
-std::string PhaseTimes::text() {
+std::string WorkTimes::text() {
   begin(phase_);
   std::vector<std::pair<double, CostPhase>> parts;
   double sum_s = 0.0;

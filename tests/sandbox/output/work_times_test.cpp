@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "sandbox/output/phase_times.h"
+#include "sandbox/output/work_times.h"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 namespace gloam {
 namespace {
 
-TEST(PhaseTimes, add_up_the_times_of_each_kind_and_name_the_longest_first) {
-  PhaseTimes::Clock::time_point now;
-  PhaseTimes times([&now] { return now; });
+TEST(WorkTimes, add_up_the_times_of_each_kind_and_name_the_longest_first) {
+  WorkTimes::Clock::time_point now;
+  WorkTimes times([&now] { return now; });
   const auto work = [&](CostPhase phase, std::chrono::milliseconds time) {
     times.begin(phase);
     now += time;
@@ -24,7 +24,7 @@ TEST(PhaseTimes, add_up_the_times_of_each_kind_and_name_the_longest_first) {
   EXPECT_EQ(times.text(), "measuring took 8 s: pictures 5 s, timing 3 s\n");
 }
 
-TEST(PhaseTimes, have_a_name_for_each_kind) {
+TEST(WorkTimes, have_a_name_for_each_kind) {
   std::set<std::string_view> names;
   for (std::size_t i = 0; i < kCostPhases; ++i) names.insert(name_of(static_cast<CostPhase>(i)));
   EXPECT_EQ(names.size(), kCostPhases);
