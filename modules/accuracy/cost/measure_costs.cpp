@@ -42,9 +42,10 @@ class LedgerRun {
     // Nothing was timed beside the default: the first knob has one value, or none that changes anything.
     auto frames = measurement.time_default();
     if (!frames) return frames.error();
-    rows.rows.front().standard = std::move(frames).value();
+    TimedRow& first = rows.rows.front();
+    first.standard = std::move(frames).value();
     timed = true;
-    return {};
+    return store_.save(measurement.identity(first.row.value), first);
   }
 
   /// The rows, with fronts.

@@ -34,7 +34,7 @@ TEST_F(JudgedKnobs, a_knob_that_changes_nothing_says_why) {
 }
 
 TEST_F(JudgedKnobs, a_value_that_changes_nothing_for_a_known_reason_is_not_timed) {
-  request_.knobs = {"fake.count", "fake.samples"};
+  request_.knobs = {"fake.count", "fake.samples"};  // nothing is timed beside the first
   request_.header.frames = 8;
   subject_.reasons["fake.count"] = subject_.reasons["fake.samples"] = "a wrong reason";
   const Ledger ledger = measure();
@@ -48,8 +48,10 @@ TEST_F(JudgedKnobs, a_value_that_changes_nothing_for_a_known_reason_is_not_timed
     EXPECT_EQ(row.ms, ledger.rows[0].ms);
     EXPECT_GT(row.ms.median_ms, 0.0) << "the default's";
   }
+  const int drawn = subject_.frames_drawn;
   const Ledger again = measure();
   EXPECT_EQ(progress_.measured, 0);
+  EXPECT_EQ(subject_.frames_drawn, drawn) << "the default's frames are kept, too";
   EXPECT_EQ(again.rows, ledger.rows);
   subject_.reasons.clear();
   request_.header.frames = 6;
