@@ -54,6 +54,7 @@ TEST_F(JudgedKnobs, a_value_that_changes_nothing_for_a_known_reason_is_not_timed
   EXPECT_EQ(subject_.frames_drawn, drawn) << "the default's frames are kept, too";
   EXPECT_EQ(again.rows, ledger.rows);
   subject_.reasons.clear();
+  EXPECT_THAT(ledger_table(ledger), HasSubstr("are equal, and they were not timed\n"));
   request_.header.frames = 6;
   for (const LedgerRow& row : measure().rows) EXPECT_GT(row.pairs, 0u) << "without a reason, too";
 }
