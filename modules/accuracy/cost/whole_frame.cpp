@@ -29,8 +29,6 @@ Status WholeFrame::prepare(CostProgress& progress) {
   // A subject may draw many frames before its first one, until memory has settled: not with exact values, which are
   // slow.
   GLOAM_TRY(subject_.draw(0));
-  // The default's memory, before frames with other values leave larger buffers behind for a while.
-  if (const auto bytes = drawn_.gpu_bytes_now(); !bytes) return bytes.error();
   progress.phase(CostPhase::exact);
   KnobOverrides overrides(subject_.knobs());
   GLOAM_TRY(overrides.set(exact_settings(subject_.knobs())));
