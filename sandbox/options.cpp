@@ -134,7 +134,8 @@ std::vector<CommandApp> add_commands(CLI::App& root, Options& options, RawTexts&
                    "Measure several cameras, comma-separated: the ledger has the worst of them, and each camera's rows")
       ->type_name("A,B");
   cost->add_flag("--path", options.path,
-                 "Measure each camera at 5 times, evenly over the scene's longest animation: the ledger has the worst");
+                 "Measure each camera at 5 times, evenly over the scene's longest animation, or, without animations, 5 "
+                 "positions on a path through its cameras (those of --cameras): the ledger has the worst");
   cost->add_option("--list", options.scene_list,
                    "Measure the scenes of a file instead of SCENE: one a line with options of its own; paths are "
                    "relative to the file")

@@ -90,6 +90,20 @@ struct PlannedRow {
   bool from_reference = false;  ///< has a reference of its module, which may take long
 };
 
+/// Kinds of work that measuring consists of.
+enum class CostPhase {
+  start,       ///< frames before the first row, until the session has settled
+  pictures,    ///< frames that are read
+  exact,       ///< frames with exact values, of one knob or of all
+  references,  ///< references and distances that modules compute
+  comparison,  ///< errors of pictures, files of pictures
+  timing,      ///< pairs of frames
+  memory,      ///< frames that show what memory a value needs
+  other        ///< between rows
+};
+inline constexpr std::size_t kCostPhases = 8;
+[[nodiscard]] std::string_view name_of(CostPhase phase);
+
 /// Callbacks for progress bars. `done` and `total` count rows.
 class CostProgress {
  public:
@@ -104,6 +118,8 @@ class CostProgress {
     measuring("point", setting, done, total);
   }
   virtual void finished_point(const LedgerPoint& /*point*/, bool /*resumed*/) {}
+  /// Work of this kind begins; it ends with the next call.
+  virtual void phase(CostPhase /*phase*/) {}
   /// A picture of a row or point that was just measured. `name`: one of row_pictures(), which is the same for equal
   /// pictures.
   [[nodiscard]] virtual Status picture(const std::string& /*name*/, const Picture& /*picture*/) { return {}; }

@@ -103,7 +103,9 @@ struct LedgerRow {
   double ratio_high = 1.0;
   double sure_low = 1.0;  ///< 99.8 % interval, by which values with equal pictures are told apart
   double sure_high = 1.0;
-  std::uint32_t pairs = 0;         ///< of frames that were timed
+  /// Of frames that were timed. 0: the row has the default's picture, it is known why the knob changes nothing, and so
+  /// it has the default's time.
+  std::uint32_t pairs = 0;
   std::uint64_t gpu_bytes = 0;     ///< of all modules
   std::string picture;             ///< hash of the value's picture and light
   std::string reference_picture;   ///< the same of its reference; empty: the reference has no picture

@@ -19,6 +19,7 @@
 #include "sandbox/output/pictures/picture_folder.h"
 #include "sandbox/output/progress_bar.h"
 #include "sandbox/output/time_left.h"
+#include "sandbox/output/work_times.h"
 #include "sandbox/session/baking/captures.h"
 #include "sandbox/session/drawing/session_costs.h"
 #include "sandbox/session/loading/scene_files.h"
@@ -51,6 +52,7 @@ class ConsoleProgress final : public CostProgress {
   }
 
   Status picture(const std::string& name, const Picture& picture) override { return pictures_.save(name, picture); }
+  void phase(CostPhase phase) override { phases_.begin(phase); }
   bool has_picture(const std::string& name) override { return pictures_.has(name); }
 
   void finished(const LedgerRow& row, bool resumed) override {
@@ -59,8 +61,10 @@ class ConsoleProgress final : public CostProgress {
     left_.finished(resumed ? std::nullopt : std::optional(took_s));
     if (quiet_ || console_.shows_progress()) return;
     const std::string times = row.is_default ? std::string(": the default")
-                                             : formatted(": %.2f (%.2f-%.2f) of the default's time, %u pairs of frames",
-                                                         row.ratio, row.ratio_low, row.ratio_high, row.pairs);
+                              : row.pairs == 0
+                                  ? ": the default's picture, not timed"
+                                  : formatted(": %.2f (%.2f-%.2f) of the default's time, %u pairs of frames", row.ratio,
+                                              row.ratio_low, row.ratio_high, row.pairs);
     console_.print(row.knob + "=" + row.value + times +
                    (resumed ? " (measured before)" : time_left_text(left_.seconds())) + "\n");
     // Flush, so that the reader of a pipe gets the line at once. A failure to write is reported at the end.
@@ -68,13 +72,13 @@ class ConsoleProgress final : public CostProgress {
   }
 
   /// The next rows are of this camera, the one of index `camera` of `cameras`.
-  void begin_camera(std::size_t camera, std::size_t cameras, const Options& options) {
+  void begin_camera(std::size_t camera, std::size_t cameras, const MeasuredCamera& measured) {
     camera_ = camera;
     cameras_ = cameras;
     if (cameras > 1 && !quiet_ && !console_.shows_progress())
       console_.print(formatted("camera %zu of %zu: ", camera + 1, cameras) +
-                     (options.camera.empty() ? std::string("the first") : options.camera) +
-                     formatted(" at %g s\n", options.time_s));
+                     (measured.options.camera.empty() ? std::string("the first") : measured.name()) +
+                     formatted(" at %g s\n", measured.options.time_s));
   }
 
   void finished_point(const LedgerPoint& point, bool resumed) override {
@@ -87,6 +91,8 @@ class ConsoleProgress final : public CostProgress {
     static_cast<void>(console_.flush());
   }
 
+  /// What measuring took, by kinds of work, in one line.
+  [[nodiscard]] std::string times() { return phases_.text(); }
   [[nodiscard]] std::size_t resumed() const { return resumed_; }
   [[nodiscard]] std::size_t rows() const { return resumed_ + measured_; }
 
@@ -101,6 +107,7 @@ class ConsoleProgress final : public CostProgress {
   std::size_t cameras_ = 1;
   Clock::time_point begin_;  ///< of the row that is measured
   TimeLeft left_;
+  WorkTimes phases_;
 };
 
 /// All that a ledger can vary: the modules' knobs and the resolution scale.
@@ -233,28 +240,29 @@ Result<MeasuredCameras> measure_cameras(const Options& options, const std::vecto
                                         const CommandContext& context, ConsoleProgress& progress) {
   MeasuredCameras measured;
   std::vector<Ledger> ledgers;
-  std::vector<Options> cameras = {options};
+  std::vector<MeasuredCamera> cameras = {{.options = options}};
   for (std::size_t i = 0; i < cameras.size(); ++i) {
-    auto opened = open_session(cameras[i], context.log);
+    auto opened = open_session(cameras[i].options, context.log);
     if (!opened) return opened.error();
     Session& session = **opened;
     if (i == 0) {
-      auto all = options_of_cameras(options, session);
+      auto all = measured_cameras(options, session);
       if (!all) return all.error();
       cameras = std::move(all).value();
-      const auto camera = find_camera(session.world, session.info, cameras.front().camera);
-      if (!camera) return camera.error();
-      session.camera = *camera;
       for (const Knob& knob : session.renderer->knobs().knobs())
         measured.knobs.push_back({knob.name, knob.meaning, value_text(knob, knob.default_number)});
     }
     if (cameras.size() > 1 && options.points.value_or(0) > 0)
       return Error{ErrorKind::usage, "--points measures combinations in one camera and at one time"};
-    if (cameras.size() > 1) cameras[i].points = 0;
-    GLOAM_TRY(ensure_baked(session, cameras[i], context.log, &context.console));
-    SessionCosts costs(session, cameras[i]);
+    GLOAM_TRY(place_camera(cameras[i], session));
+    Options& own = cameras[i].options;
+    if (cameras.size() > 1) own.points = 0;
+    GLOAM_TRY(ensure_baked(session, own, context.log, &context.console));
+    SessionCosts costs(session, own);
     progress.begin_camera(i, cameras.size(), cameras[i]);
-    auto ledger = measure_costs(make_request(session, cameras[i], chosen), costs, progress);
+    CostRequest request = make_request(session, own, chosen);
+    request.header.camera = cameras[i].name();
+    auto ledger = measure_costs(request, costs, progress);
     if (!ledger) return ledger.error();
     GLOAM_TRY(session.check_validation());
     ledgers.push_back(std::move(ledger).value());
@@ -293,6 +301,7 @@ Status measure_scene(const CommandContext& context) {
   if (progress.resumed() > 0)
     context.console.print(std::to_string(progress.resumed()) + " of " + std::to_string(progress.rows()) +
                           " rows were measured before\n");
+  context.console.print(progress.times());
   context.console.print("wrote " + options.out + "/report.html, ledger.json and ledger.csv\n");
   return {};
 }

@@ -75,7 +75,25 @@ class CostCameras(ProgramCase):
         _, cameras = self.check_worst(ledger)
         pictures = {rows[("lighting.tone_map", "linear")]["picture"] for rows in cameras}
         self.assertGreater(len(pictures), 2, "the camera turns")
-        self.expect(2, "cost", "two.gltf", *TINY, "--path", "--out", "path", says="--path needs a scene with an animation")
+        self.expect(2, "cost", "two.gltf", *TINY, "--path", "--camera", "lit", "--out", "path",
+                    says="--path needs a scene with an animation, or two cameras to lead through")
+
+    def test_a_path_without_an_animation_leads_through_the_cameras(self):
+        self.expect(0, "cost", "two.gltf", "--quick", "--size", "48x27", "--knobs", "lighting.tone_map", "--path", "--out", "way")
+        ledger = self.read_json("way/ledger.json")
+        names = [camera["camera"] for camera in ledger["cameras"]]
+        self.assertEqual(names, ["lit", "lit to dark, 0.25 of the way", "lit to dark, 0.5 of the way",
+                                 "lit to dark, 0.75 of the way", "dark"])
+        self.assertEqual({camera["time_s"] for camera in ledger["cameras"]}, {0.0})
+        _, cameras = self.check_worst(ledger)
+        pictures = [rows[("lighting.tone_map", "linear")]["picture"] for rows in cameras]
+        self.assertNotIn(pictures[1], (pictures[0], pictures[4]), "half of the way, the camera sees the card askew")
+        # The other way, with its ends at the same places.
+        self.expect(0, "cost", "two.gltf", "--quick", "--size", "48x27", "--knobs", "lighting.tone_map", "--path",
+                    "--cameras", "dark,lit", "--out", "way")
+        back = self.read_json("way/ledger.json")["cameras"]
+        self.assertEqual([back[i]["rows"][0]["picture"] for i in (0, 4)],
+                         [ledger["cameras"][i]["rows"][0]["picture"] for i in (4, 0)])
 
     def test_wrong_names_are_2_before_anything_is_measured(self):
         for names, says in (("lit,nobody", "no camera is named \"nobody\"; there are lit, dark"), ("lit,", "names with commas"),

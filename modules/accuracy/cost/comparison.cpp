@@ -10,6 +10,7 @@
 namespace gloam {
 
 Status compare(const NoisyReference& reference, const FramePictures& frame, CostProgress& progress, LedgerRow& row) {
+  progress.phase(CostPhase::comparison);
   std::vector<float> flip;
   GLOAM_TRY(reference.judge.judge(frame, row, &flip));
   row.picture = hash_of(frame);

@@ -27,6 +27,8 @@ void share(const std::vector<KnobRows*>& knobs) {
         set_times(standard, row);
         row.pairs = static_cast<std::uint32_t>(frames.size());
         row.gpu_bytes = *bytes;
+      } else if (row.pairs == 0) {  // it changes nothing, and was not timed
+        set_times(standard, row);
       } else if (row.ms.median_ms > 0.0) {
         const double scale = row.ratio * standard.ms.median_ms / row.ms.median_ms;
         row.ms = {row.ms.median_ms * scale, row.ms.p10_ms * scale, row.ms.p90_ms * scale};

@@ -32,11 +32,12 @@ std::vector<LinearPicture> light_of(const std::vector<FramePictures>& frames, bo
 }  // namespace
 
 KnobMeasurement::KnobMeasurement(const CostRequest& request, CostSubject& subject, CostProgress& progress,
-                                 WholeFrame& whole, const Knob& knob)
+                                 WholeFrame& whole, DrawnSettings& settings, const Knob& knob)
     : request_(request),
       subject_(subject),
       progress_(progress),
       whole_(whole),
+      settings_(settings),
       knob_(knob),
       users_(subject.knobs().text(knob)),
       default_(value_text(knob, knob.default_number)),
@@ -75,30 +76,49 @@ Result<TimedRow> KnobMeasurement::measure(const std::string& value) {
   {
     KnobOverrides users(subject_.knobs());
     GLOAM_TRY(users.set(std::vector<KnobOverride>{{knob_.name, users_}}));
-    GLOAM_TRY(whole_.prepare());
+    GLOAM_TRY(whole_.prepare(progress_));
   }
   GLOAM_TRY(judge(value, row));
-  if (!row.is_default) {
-    auto times = time(value);
-    if (!times) return times.error();
-    set_times(summarize_times(*times, knob_.module), row);
-    row.pairs = static_cast<std::uint32_t>(times->candidate.size());
-    measured.standard = std::move(times->standard);
-  }
+  const auto idle = is_idle(row);
+  if (!idle) return idle.error();
+  if (!row.is_default && !*idle) GLOAM_TRY(time(measured));
+  progress_.phase(CostPhase::memory);
   GLOAM_TRY(set(value));
-  const auto bytes = subject_.gpu_bytes();
+  const auto bytes = settings_.gpu_bytes_now();
   if (!bytes) return bytes.error();
   row.gpu_bytes = *bytes;
-  if (row.is_default) row.no_effect_reason = subject_.no_effect_reason(knob_);
   return measured;
 }
 
-Result<KnobMeasurement::Drawn> KnobMeasurement::draw(const std::string& value) {
-  GLOAM_TRY(set(value));
-  return draw();
+Result<bool> KnobMeasurement::is_idle(LedgerRow& row) {
+  progress_.phase(CostPhase::pictures);
+  GLOAM_TRY(set(default_));
+  auto reason = settings_.idle_reason_now(knob_);
+  if (!reason) return reason.error();
+  if (row.is_default) row.no_effect_reason = *reason;
+  if (reason->empty() || !row.wrong.empty()) return false;
+  const auto standard = settings_.frame_now();
+  if (!standard) return standard.error();
+  return row.picture == standard->hash;
 }
 
-Result<KnobMeasurement::Drawn> KnobMeasurement::draw() {
+Status KnobMeasurement::time(TimedRow& measured) {
+  auto times = time(measured.row.value);
+  if (!times) return times.error();
+  set_times(summarize_times(*times, knob_.module), measured.row);
+  measured.row.pairs = static_cast<std::uint32_t>(times->candidate.size());
+  measured.standard = std::move(times->standard);
+  return {};
+}
+
+Result<KnobMeasurement::Drawn> KnobMeasurement::draw(const std::string& value) {
+  progress_.phase(CostPhase::pictures);
+  GLOAM_TRY(set(value));
+  // Distances and references that follow the value are computed from the last frame.
+  return draw(reference_ && (reference_->distance || reference_->follows_value));
+}
+
+Result<KnobMeasurement::Drawn> KnobMeasurement::draw(bool fresh) {
   Drawn drawn;
   if (request_.sequence >= 2) {
     GLOAM_TRY(settle(subject_));
@@ -109,7 +129,7 @@ Result<KnobMeasurement::Drawn> KnobMeasurement::draw() {
       drawn.sequence.push_back(std::move(frame->linear));
     }
   }
-  auto frame = draw_settled(subject_);
+  auto frame = settings_.frame_now(fresh);
   if (!frame) return frame.error();
   drawn.frame = std::move(frame).value();
   return drawn;
@@ -121,9 +141,9 @@ Status KnobMeasurement::judge(const std::string& value, LedgerRow& row) {
     row.no_reference = knob_.taste;
     const auto drawn = draw(value);
     if (!drawn) return drawn.error();
-    row.picture = hash_of(drawn->frame);
-    GLOAM_TRY(judge_whole(drawn->frame, row));
-    GLOAM_TRY(progress_.picture(row.picture, drawn->frame.picture));
+    row.picture = drawn->frame.hash;
+    GLOAM_TRY(judge_whole(drawn->frame.pictures, row));
+    GLOAM_TRY(progress_.picture(row.picture, drawn->frame.pictures.picture));
     return judge_distance(row);
   }
   const bool serves_all = !draws_reference() || !reference_->follows_value;
@@ -138,6 +158,7 @@ Status KnobMeasurement::judge_distance(LedgerRow& row) {
   if (!reference_ || !reference_->distance) return {};
   row.reference_kind = reference_->kind;
   row.reference_name = reference_->name;
+  progress_.phase(CostPhase::references);
   const auto distance = subject_.measure_distance(*reference_, request_.header.samples);
   if (!distance) return distance.error();
   if (*distance) row.counted = CountedError{(*distance)->mean, reference_->unit, (*distance)->p99};
@@ -163,38 +184,39 @@ Status KnobMeasurement::judge_by(const NoisyReference& reference, const FramePic
 }
 
 Status KnobMeasurement::draw_common_reference() {
+  progress_.phase(CostPhase::exact);
   GLOAM_TRY(set(draws_reference() ? default_ : knob_.exact));
   KnobOverrides overrides(subject_.knobs());
   if (draws_reference()) GLOAM_TRY(overrides.set(reference_->drawn_with));
-  auto drawn = draw();
+  auto drawn = draw(draws_reference());
   if (!drawn) return drawn.error();
   if (!draws_reference()) {
     exact_sequence_ = std::move(drawn->sequence);
-    const std::string hash = hash_of(drawn->frame);
-    common_reference_.emplace(NoisyReference{PictureJudge(std::move(drawn->frame)), hash});
+    common_reference_.emplace(NoisyReference{PictureJudge(std::move(drawn->frame.pictures)), drawn->frame.hash});
     return {};
   }
-  auto reference = module_reference(default_, drawn->frame);
+  auto reference = module_reference(default_, drawn->frame.pictures);
   if (!reference) return reference.error();
   common_reference_.emplace(std::move(reference).value());
   return {};
 }
 
 Status KnobMeasurement::draw_standard() {
+  progress_.phase(CostPhase::exact);
   GLOAM_TRY(set(default_));
   {
     KnobOverrides overrides(subject_.knobs());
     GLOAM_TRY(overrides.set(measure_->picture));
-    auto right = draw();
+    auto right = draw(false);
     if (!right) return right.error();
     exact_sequence_ = std::move(right->sequence);
-    const std::string hash = hash_of(right->frame);
-    common_reference_.emplace(NoisyReference{PictureJudge(std::move(right->frame)), hash});
+    common_reference_.emplace(NoisyReference{PictureJudge(std::move(right->frame.pictures)), right->frame.hash});
   }
   KnobOverrides overrides(subject_.knobs());
   GLOAM_TRY(overrides.set(measure_->judged_with));
-  GLOAM_TRY(settle(subject_));
-  standard_ = subject_.counters();
+  auto standard = settings_.frame_now();
+  if (!standard) return standard.error();
+  standard_ = std::move(standard->counters);
   return {};
 }
 
@@ -202,15 +224,16 @@ Status KnobMeasurement::judge_by_measure(const std::string& value, LedgerRow& ro
   row.reference_kind = measure_->kind;
   row.reference_name = measure_->name;
   if (!common_reference_) GLOAM_TRY(draw_standard());
+  progress_.phase(CostPhase::pictures);
   GLOAM_TRY(set(value));
   KnobOverrides overrides(subject_.knobs());
   GLOAM_TRY(overrides.set(measure_->judged_with));
-  const auto drawn = draw();
+  const auto drawn = draw(false);
   if (!drawn) return drawn.error();
-  const FrameCounters counters = subject_.counters();
+  const FrameCounters& counters = drawn->frame.counters;
   if (const auto error = measure_->error(counters, standard_)) row.counted = CountedError{*error, measure_->unit};
   row.wrong = measure_->fault(counters);
-  GLOAM_TRY(judge_by(*common_reference_, drawn->frame, row));
+  GLOAM_TRY(judge_by(*common_reference_, drawn->frame.pictures, row));
   check_same_picture(*common_reference_, row);
   return request_.sequence < 2 ? Status() : judge_sequence(exact_sequence_, drawn->sequence, row);
 }
@@ -219,7 +242,7 @@ Status KnobMeasurement::judge_by_exact(const Drawn& drawn, LedgerRow& row) {
   const std::string exact = knob_.name + "=" + knob_.exact;
   row.reference_name = row.reference_name.empty() ? exact : row.reference_name + "; pictures against " + exact;
   if (row.reference_kind.empty()) row.reference_kind = "brute force";
-  GLOAM_TRY(judge_by(*common_reference_, drawn.frame, row));
+  GLOAM_TRY(judge_by(*common_reference_, drawn.frame.pictures, row));
   check_same_picture(*common_reference_, row);
   return request_.sequence < 2 ? Status() : judge_sequence(exact_sequence_, drawn.sequence, row);
 }
@@ -229,12 +252,12 @@ Status KnobMeasurement::judge_by_module(const std::string& value, const Drawn& d
   row.reference_name = reference_->name;
   std::optional<NoisyReference> own;
   if (reference_->follows_value) {
-    auto reference = module_reference(value, drawn.frame);
+    auto reference = module_reference(value, drawn.frame.pictures);
     if (!reference) return reference.error();
     own.emplace(std::move(reference).value());
   }
   const NoisyReference& reference = own ? *own : *common_reference_;
-  GLOAM_TRY(judge_by(reference, drawn.frame, row));
+  GLOAM_TRY(judge_by(reference, drawn.frame.pictures, row));
   row.reference_noise = reference.noise;
   const double error = row.flip ? row.flip->mean : *row.rmse;
   row.below_noise = reference.noise > 0.0 && error < reference.noise;
@@ -244,10 +267,12 @@ Status KnobMeasurement::judge_by_module(const std::string& value, const Drawn& d
 
 Status KnobMeasurement::judge_motion(const std::string& value, LedgerRow& row) {
   if (reference_sequence_.empty()) {
+    progress_.phase(CostPhase::references);
     auto references = draw_motion(default_, true);
     if (!references) return references.error();
     reference_sequence_ = std::move(references).value();
   }
+  progress_.phase(CostPhase::pictures);
   const auto frames = draw_motion(value, false);
   if (!frames) return frames.error();
   const bool displayed = reference_sequence_.front().linear.width == 0;
@@ -273,6 +298,7 @@ Result<NoisyReference> KnobMeasurement::module_reference(const std::string& valu
       joined_line(reference_->kind + " " + reference_->name + " of " + hash_of(frame) + " " + frame_identity(value));
   std::optional<JudgedReference> reference = cache_.load(identity);
   if (!reference) {
+    progress_.phase(CostPhase::references);
     auto computed = compute(frame);
     if (!computed) return computed.error();
     reference = std::move(computed).value();
@@ -298,6 +324,7 @@ Result<JudgedReference> KnobMeasurement::compute(const FramePictures& frame) {
 }
 
 Result<AlternatingTimes> KnobMeasurement::time(const std::string& value) {
+  progress_.phase(CostPhase::timing);
   std::int32_t index = 0;  // time goes on, so that frames include the work of simulations
   const auto run = [&](TimedSide side) -> Result<FrameCost> {
     GLOAM_TRY(set(side == TimedSide::standard ? default_ : value));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "modules/accuracy/cost/comparison.h"
+#include "modules/accuracy/cost/drawn_settings.h"
 #include "modules/accuracy/cost/timing.h"
 #include "modules/accuracy/cost/whole_frame.h"
 #include "modules/accuracy/ledger/reference_cache.h"
@@ -22,7 +23,7 @@ class KnobMeasurement {
  public:
   /// All must outlive it. progress: gets the pictures.
   KnobMeasurement(const CostRequest& request, CostSubject& subject, CostProgress& progress, WholeFrame& whole,
-                  const Knob& knob);
+                  DrawnSettings& settings, const Knob& knob);
   ~KnobMeasurement();
   KnobMeasurement(const KnobMeasurement&) = delete;
   KnobMeasurement& operator=(const KnobMeasurement&) = delete;
@@ -37,14 +38,14 @@ class KnobMeasurement {
 
  private:
   struct Drawn {
-    FramePictures frame;
+    DrawnFrame frame;
     std::vector<LinearPicture> sequence;  ///< empty unless the request asks for one
   };
   /// Everything that a drawn frame depends on, in one line.
   [[nodiscard]] std::string frame_identity(const std::string& value) const;
   [[nodiscard]] Status set(const std::string& value);
-  /// Draws with the current knobs. The last frame drawn is frame 0.
-  [[nodiscard]] Result<Drawn> draw();
+  /// Frame 0 with the current knobs. fresh: it is the last frame drawn.
+  [[nodiscard]] Result<Drawn> draw(bool fresh);
   [[nodiscard]] Result<Drawn> draw(const std::string& value);
   [[nodiscard]] Status judge(const std::string& value, LedgerRow& row);
   /// Whether the module has a reference that is pictures, not only a distance.
@@ -69,12 +70,17 @@ class KnobMeasurement {
   [[nodiscard]] Result<std::vector<FramePictures>> draw_motion(const std::string& value, bool references);
   [[nodiscard]] Result<NoisyReference> module_reference(const std::string& value, const FramePictures& frame);
   [[nodiscard]] Result<JudgedReference> compute(const FramePictures& frame);
+  /// Whether it is known why the knob changes nothing, and the row's picture is that of the default. Sets
+  /// row.no_effect_reason of the default.
+  [[nodiscard]] Result<bool> is_idle(LedgerRow& row);
+  [[nodiscard]] Status time(TimedRow& measured);
   [[nodiscard]] Result<AlternatingTimes> time(const std::string& value);
 
   const CostRequest& request_;
   CostSubject& subject_;
   CostProgress& progress_;
   WholeFrame& whole_;
+  DrawnSettings& settings_;
   const Knob& knob_;
   std::string users_;  ///< the knob's value before measuring
   std::string default_;

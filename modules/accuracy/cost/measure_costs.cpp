@@ -5,6 +5,7 @@
 
 #include "engine/core/assert.h"
 #include "modules/accuracy/cost/default_times.h"
+#include "modules/accuracy/cost/drawn_settings.h"
 #include "modules/accuracy/cost/knob_measurement.h"
 #include "modules/accuracy/ledger/measurement_store.h"
 #include "modules/accuracy/module.h"
@@ -21,26 +22,30 @@ class LedgerRun {
         subject_(subject),
         progress_(progress),
         store_(request.folder + "/measurements"),
-        whole_(request, subject) {
+        settings_(subject),
+        whole_(request, subject, settings_) {
     const std::vector<PlannedRow> rows = planned_rows();
     total_ = rows.size();
     progress_.plan(rows);
   }
 
   [[nodiscard]] Status measure(const std::string& name) {
-    KnobMeasurement measurement(request_, subject_, progress_, whole_, knob(name));
+    KnobMeasurement measurement(request_, subject_, progress_, whole_, settings_, knob(name));
+    bool own_timed = false;
     KnobRows& rows = knobs_.emplace_back(KnobRows{knob(name).module, measurement.default_is_users(), {}});
-    bool timed = false;
+    bool& timed = rows.default_is_users ? users_timed_ : own_timed;
     for (const std::string& value : ledger_values(knob(name))) {
       GLOAM_TRY(add(measurement, name, value, rows));
       timed = timed || !rows.rows.back().standard.empty();
     }
     if (timed) return {};
-    // A knob with one value: nothing was timed beside its default.
+    // Nothing was timed beside the default: the first knob has one value, or none that changes anything.
     auto frames = measurement.time_default();
     if (!frames) return frames.error();
-    rows.rows.front().standard = std::move(frames).value();
-    return {};
+    TimedRow& first = rows.rows.front();
+    first.standard = std::move(frames).value();
+    timed = true;
+    return store_.save(measurement.identity(first.row.value), first);
   }
 
   /// The rows, with fronts.
@@ -51,7 +56,7 @@ class LedgerRun {
 
   /// Measures the combinations that the rows promise. They share the default's time with the rows.
   [[nodiscard]] Status measure_points(Ledger& ledger) {
-    PointsRun points(request_, subject_, progress_, whole_, ledger.rows);
+    PointsRun points(request_, subject_, progress_, whole_, settings_, ledger.rows);
     GLOAM_TRY(points.measure());
     knobs_.push_back(std::move(points.rows()));
     share_default_times(knobs_);
@@ -92,6 +97,7 @@ class LedgerRun {
       progress_.measuring(name, value, done_, total_);
       auto measured = measurement.measure(value);
       if (!measured) return Error{measured.error().kind, name + "=" + value + ": " + measured.error().message};
+      progress_.phase(CostPhase::other);
       row = std::move(measured).value();
       GLOAM_TRY(store_.save(identity, *row));
     }
@@ -118,7 +124,9 @@ class LedgerRun {
   CostSubject& subject_;
   CostProgress& progress_;
   const MeasurementStore store_;
+  DrawnSettings settings_;
   WholeFrame whole_;
+  bool users_timed_ = false;  ///< a row has frames of the user's settings, which give all rows of them their time
   std::size_t done_ = 0;
   std::size_t total_ = 0;
   std::vector<KnobRows> knobs_;

@@ -3,18 +3,24 @@
 #include "modules/accuracy/cost/timing.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "engine/core/assert.h"
 
 namespace gloam {
 namespace {
 
-Status run_side(const RunFrame& run, TimedSide side, std::uint32_t left_out, std::vector<FrameCost>* measured) {
-  for (std::uint32_t frame = 0; frame < left_out; ++frame) GLOAM_TRY(run(side));
-  if (measured == nullptr) return {};
-  auto cost = run(side);
-  if (!cost) return cost.error();
-  measured->push_back(*cost);
+Status run_frames(const RunFrame& run, TimedSide side, std::uint32_t count) {
+  for (std::uint32_t frame = 0; frame < count; ++frame) GLOAM_TRY(run(side));
+  return {};
+}
+
+Status measure_frames(const RunFrame& run, TimedSide side, std::uint32_t count, AlternatingTimes& times) {
+  for (std::uint32_t frame = 0; frame < count; ++frame) {
+    auto cost = run(side);
+    if (!cost) return cost.error();
+    (side == TimedSide::standard ? times.standard : times.candidate).push_back(std::move(cost).value());
+  }
   return {};
 }
 
@@ -26,13 +32,30 @@ std::vector<double> ratios_of(const AlternatingTimes& times) {
   return ratios;
 }
 
+/// 95 % interval of the median.
+Interval interval_of(const std::vector<double>& ratios) {
+  if (ratios.size() >= kBootstrapPairs) return median_interval(ratios);
+  const auto [least, most] = std::ranges::minmax_element(ratios);
+  return {*least, *most};
+}
+
+/// kSureProbability. The median lies outside the range of n ratios with 2^(1 - n): 0.2 % from ten on. The range of
+/// fewer is widened by its length on both sides.
+Interval sure_interval_of(const std::vector<double>& ratios) {
+  constexpr std::size_t kSurePairs = 10;
+  if (ratios.size() >= kBootstrapPairs) return median_interval(ratios, kSureProbability);
+  const Interval range = interval_of(ratios);
+  const double more = ratios.size() < kSurePairs ? range.high - range.low : 0.0;
+  return {std::max(range.low - more, 0.0), range.high + more};
+}
+
 bool known_well(const TimingPlan& plan, const AlternatingTimes& times) {
-  constexpr std::size_t kPairsBetween = 4;  // an interval takes as long as drawing a small frame
+  constexpr std::size_t kPairsBetween = 4;  // a bootstrap takes as long as drawing a small frame
   const std::size_t pairs = times.candidate.size();
-  if (pairs < plan.least_pairs || pairs % kPairsBetween != 0) return false;
+  if (pairs < kLeastPairs || (pairs >= kBootstrapPairs && pairs % kPairsBetween != 0)) return false;
   std::vector<double> ratios = ratios_of(times);
   if (ratios.empty()) return true;
-  const Interval interval = median_interval(ratios);
+  const Interval interval = interval_of(ratios);
   const double ratio = quantile(ratios, 0.5);
   return std::max(ratio - interval.low, interval.high - ratio) <= plan.wanted * ratio;
 }
@@ -50,24 +73,16 @@ Result<AlternatingTimes> time_alternating(const TimingPlan& plan, const RunFrame
   GLOAM_ASSERT(plan.most_pairs > 0, "times are of at least one frame");
   AlternatingTimes times;
   for (const TimedSide side : {TimedSide::standard, TimedSide::candidate})
-    GLOAM_TRY(run_side(run, side, plan.first_warm_up, nullptr));
-  // A pair begins with the side that the last one ended with: one change of side a pair, and one warm-up.
-  bool standard_first = false;
+    GLOAM_TRY(run_frames(run, side, plan.first_warm_up));
+  // Pairs begin with the side that the last ones ended with: one change of side, and one warm-up.
+  TimedSide first = TimedSide::candidate, second = TimedSide::standard;
   do {
-    const auto standard = [&](std::uint32_t left_out) {
-      return run_side(run, TimedSide::standard, left_out, &times.standard);
-    };
-    const auto candidate = [&](std::uint32_t left_out) {
-      return run_side(run, TimedSide::candidate, left_out, &times.candidate);
-    };
-    if (standard_first) {
-      GLOAM_TRY(standard(0));
-      GLOAM_TRY(candidate(plan.warm_up));
-    } else {
-      GLOAM_TRY(candidate(0));
-      GLOAM_TRY(standard(plan.warm_up));
-    }
-    standard_first = !standard_first;
+    const auto done = static_cast<std::uint32_t>(times.candidate.size());
+    const std::uint32_t pairs = std::min(kPairsTogether, plan.most_pairs - done);
+    GLOAM_TRY(measure_frames(run, first, pairs, times));
+    GLOAM_TRY(run_frames(run, second, plan.warm_up));
+    GLOAM_TRY(measure_frames(run, second, pairs, times));
+    std::swap(first, second);
   } while (times.candidate.size() < plan.most_pairs && !known_well(plan, times));
   return times;
 }
@@ -91,8 +106,8 @@ TimedValue summarize_times(const AlternatingTimes& times, std::string_view modul
   TimedValue value = summarize_frames(times.candidate, module);
   std::vector<double> ratios = ratios_of(times);
   if (ratios.empty()) return value;
-  value.ratio_interval = median_interval(ratios);
-  value.sure_interval = median_interval(ratios, kSureProbability);
+  value.ratio_interval = interval_of(ratios);
+  value.sure_interval = sure_interval_of(ratios);
   value.ratio = quantile(ratios, 0.5);
   return value;
 }

@@ -19,10 +19,17 @@ struct TimingPlan {
   std::uint32_t most_pairs = kLedgerFrames;  ///< measured frames per side, > 0
   /// Measuring ends when the ratio's interval reaches at most this far from the ratio, relative to it.
   double wanted = 0.02;
-  std::uint32_t least_pairs = 12;   ///< before that is asked: intervals of fewer are often too narrow
-  std::uint32_t first_warm_up = 3;  ///< unmeasured frames per side at the start: pipelines, memory, caches
+  std::uint32_t first_warm_up = 2;  ///< unmeasured frames per side at the start: pipelines, memory, caches
   std::uint32_t warm_up = 1;        ///< unmeasured frames after every change of side
 };
+
+/// Pairs that are drawn between two changes of side, each of which costs warm-up frames.
+inline constexpr std::uint32_t kPairsTogether = 2;
+/// Fewer are not asked for their interval: the range of six ratios holds their true median with 96.9 %.
+inline constexpr std::uint32_t kLeastPairs = 6;
+/// From here on the bootstrap gives intervals. Of fewer pairs its intervals are too narrow, and the range of all ratios
+/// is taken.
+inline constexpr std::uint32_t kBootstrapPairs = 12;
 
 /// Costs of the measured frames, in order. The i-th frames of the two sides were measured next to each other.
 struct AlternatingTimes {
@@ -33,8 +40,8 @@ struct AlternatingTimes {
 /// Applies the knob value of a side, if the last call was for the other side, and draws one frame.
 using RunFrame = std::function<Result<FrameCost>(TimedSide)>;
 
-/// Alternates the sides (B A, A B, B A …), so that a drift of the machine's speed affects both, until the ratio is
-/// known well enough.
+/// Alternates the sides (BB AA, AA BB, BB AA …), so that a drift of the machine's speed affects both, until the ratio
+/// is known well enough.
 [[nodiscard]] Result<AlternatingTimes> time_alternating(const TimingPlan& plan, const RunFrame& run);
 
 /// Of values that change nothing, one in twenty would lie outside a 95 % interval, and there are a hundred in a ledger.

@@ -7,7 +7,6 @@
 #include "engine/core/assert.h"
 #include "modules/accuracy/cost/frame_identity.h"
 #include "modules/accuracy/cost/knob_overrides.h"
-#include "modules/accuracy/cost/settled_frame.h"
 #include "modules/accuracy/ledger/reference_cache.h"
 
 namespace gloam {
@@ -21,22 +20,25 @@ std::vector<KnobOverride> exact_settings(const KnobRegistry& knobs) {
   return settings;
 }
 
-WholeFrame::WholeFrame(const CostRequest& request, CostSubject& subject) : request_(request), subject_(subject) {}
+WholeFrame::WholeFrame(const CostRequest& request, CostSubject& subject, DrawnSettings& drawn)
+    : request_(request), subject_(subject), drawn_(drawn) {}
 
-Status WholeFrame::prepare() {
+Status WholeFrame::prepare(CostProgress& progress) {
   if (reference_) return {};
+  progress.phase(CostPhase::start);
   // A subject may draw many frames before its first one, until memory has settled: not with exact values, which are
   // slow.
   GLOAM_TRY(subject_.draw(0));
+  progress.phase(CostPhase::exact);
   KnobOverrides overrides(subject_.knobs());
   GLOAM_TRY(overrides.set(exact_settings(subject_.knobs())));
   const ReferenceCache cache(request_.folder + "/references");
   const std::string identity = "whole frame " + conditions_identity(request_) + knobs_identity(subject_.knobs());
   std::optional<JudgedReference> stored = cache.load(identity);
   if (!stored) {
-    auto drawn = draw_settled(subject_);
+    auto drawn = drawn_.frame_now();
     if (!drawn) return Error{drawn.error().kind, "the whole-frame reference: " + drawn.error().message};
-    stored = JudgedReference{.pictures = std::move(drawn).value()};
+    stored = JudgedReference{.pictures = std::move(drawn->pictures)};
     GLOAM_TRY(cache.save(identity, *stored));
   }
   const std::string hash = hash_of(stored->pictures);

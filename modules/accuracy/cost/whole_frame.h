@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "modules/accuracy/cost/comparison.h"
+#include "modules/accuracy/cost/drawn_settings.h"
 #include "modules/accuracy/module.h"
 
 namespace gloam {
@@ -18,11 +19,11 @@ namespace gloam {
 class WholeFrame {
  public:
   /// All must outlive it. The knobs must have the user's values.
-  WholeFrame(const CostRequest& request, CostSubject& subject);
+  WholeFrame(const CostRequest& request, CostSubject& subject, DrawnSettings& drawn);
 
   /// Draws it, or reads it from the folder, unless that is done already. The knobs must have the user's values, and
   /// have them afterwards.
-  [[nodiscard]] Status prepare();
+  [[nodiscard]] Status prepare(CostProgress& progress);
   /// The errors of a frame. Only after prepare().
   [[nodiscard]] Result<WholeError> judge(const FramePictures& frame) const;
   [[nodiscard]] const NoisyReference& reference() const { return *reference_; }
@@ -30,6 +31,7 @@ class WholeFrame {
  private:
   const CostRequest& request_;
   CostSubject& subject_;
+  DrawnSettings& drawn_;
   std::optional<NoisyReference> reference_;
 };
 

@@ -116,6 +116,13 @@ std::string reason_of(const Ledger& ledger, std::string_view knob) {
   return {};
 }
 
+/// Whether values of the knob were timed, beside the default.
+bool was_timed(const Ledger& ledger, std::string_view knob) {
+  for (const LedgerRow& row : ledger.rows)
+    if (row.knob == knob && !row.is_default && row.pairs > 0) return true;
+  return false;
+}
+
 /// A line for each knob that changes nothing.
 std::string without_effect(const Ledger& ledger) {
   std::string text;
@@ -125,7 +132,8 @@ std::string without_effect(const Ledger& ledger) {
     last = row.knob;
     const std::string reason = reason_of(ledger, row.knob);
     text += row.knob + ": no effect here: " + (reason.empty() ? "" : reason + "; ") +
-            "the pictures of all values are equal, and no difference in time is significant\n";
+            "the pictures of all values are equal, and " +
+            (was_timed(ledger, row.knob) ? "no difference in time is significant\n" : "they were not timed\n");
   }
   return text;
 }

@@ -7,7 +7,6 @@
 #include "engine/core/assert.h"
 #include "modules/accuracy/cost/frame_identity.h"
 #include "modules/accuracy/cost/knob_overrides.h"
-#include "modules/accuracy/cost/settled_frame.h"
 
 namespace gloam {
 
@@ -22,11 +21,12 @@ std::vector<KnobValue> settings_with(const KnobRegistry& knobs, const Changes& c
 }
 
 PointMeasurement::PointMeasurement(const CostRequest& request, CostSubject& subject, CostProgress& progress,
-                                   WholeFrame& whole, Changes changes)
+                                   WholeFrame& whole, DrawnSettings& drawn, Changes changes)
     : request_(request),
       subject_(subject),
       progress_(progress),
       whole_(whole),
+      drawn_(drawn),
       settings_(settings_with(subject.knobs(), changes)) {
   for (const auto& [name, value] : changes) {
     const Knob* knob = subject.knobs().find(name);
@@ -52,14 +52,16 @@ Status PointMeasurement::set(TimedSide side) {
 Status PointMeasurement::judge(LedgerRow& row) {
   row.reference_kind = kWholeFrameKind;
   row.reference_name = kWholeFrameName;
-  const auto frame = draw_settled(subject_);
+  progress_.phase(CostPhase::pictures);
+  const auto frame = drawn_.frame_now();
   if (!frame) return frame.error();
-  GLOAM_TRY(compare(whole_.reference(), *frame, progress_, row));
+  GLOAM_TRY(compare(whole_.reference(), frame->pictures, progress_, row));
   row.whole = WholeError{.flip = *row.flip, .rmse = *row.rmse, .psnr_db = *row.psnr_db};
   return {};
 }
 
 Result<AlternatingTimes> PointMeasurement::time() {
+  progress_.phase(CostPhase::timing);
   std::int32_t index = 0;  // time goes on, so that frames include the work of simulations
   const auto run = [&](TimedSide side) -> Result<FrameCost> {
     GLOAM_TRY(set(side));
@@ -71,7 +73,7 @@ Result<AlternatingTimes> PointMeasurement::time() {
 }
 
 Result<TimedRow> PointMeasurement::measure() {
-  GLOAM_TRY(whole_.prepare());
+  GLOAM_TRY(whole_.prepare(progress_));
   KnobOverrides overrides(subject_.knobs());  // restores the user's values
   GLOAM_TRY(overrides.set(changes_));
   TimedRow measured = {.row = {.value = settings_text(settings_), .is_default = changes_.empty()}};
@@ -81,8 +83,9 @@ Result<TimedRow> PointMeasurement::measure() {
   set_times(summarize_times(*times), measured.row);
   measured.row.pairs = static_cast<std::uint32_t>(times->candidate.size());
   measured.standard = std::move(times->standard);
+  progress_.phase(CostPhase::memory);
   GLOAM_TRY(set(TimedSide::candidate));
-  const auto bytes = subject_.gpu_bytes();
+  const auto bytes = drawn_.gpu_bytes_now();
   if (!bytes) return bytes.error();
   measured.row.gpu_bytes = *bytes;
   return measured;

@@ -39,11 +39,12 @@ ModelRatio ratio_of(std::vector<double> ratios) {
 }  // namespace
 
 PointsRun::PointsRun(const CostRequest& request, CostSubject& subject, CostProgress& progress, WholeFrame& whole,
-                     const std::vector<LedgerRow>& rows)
+                     DrawnSettings& drawn, const std::vector<LedgerRow>& rows)
     : request_(request),
       subject_(subject),
       progress_(progress),
       whole_(whole),
+      drawn_(drawn),
       model_(rows, subject.knobs()),
       store_(request.folder + "/measurements"),
       exact_(exact_changes(subject.knobs())) {}
@@ -54,7 +55,7 @@ bool PointsRun::knows(const Changes& changes) const {
 
 Status PointsRun::add(Changes changes) {
   if (knows(changes)) return {};
-  PointMeasurement measurement(request_, subject_, progress_, whole_, changes);
+  PointMeasurement measurement(request_, subject_, progress_, whole_, drawn_, changes);
   const std::string identity = measurement.identity();
   std::optional<TimedRow> row = store_.load(identity);
   if (row && !has_pictures(row->row, progress_)) row.reset();
@@ -64,6 +65,7 @@ Status PointsRun::add(Changes changes) {
     progress_.measuring_point(text, planned_.size(), std::max<std::size_t>(request_.points, 2));
     auto measured = measurement.measure();
     if (!measured) return Error{measured.error().kind, text + ": " + measured.error().message};
+    progress_.phase(CostPhase::other);
     row = std::move(measured).value();
     GLOAM_TRY(store_.save(identity, *row));
   }

@@ -143,7 +143,7 @@ std::string folded_knobs(const ReportData& data) {
   if (count == 0) return {};
   return "<details><summary>Knobs without effect in this scene: " + std::to_string(count) +
          "</summary>\n<p>The pictures of all their values are equal to the bit, and no difference in time is "
-         "significant.</p>\n<ul>\n" +
+         "significant. Where the reason was known before, times were not measured.</p>\n<ul>\n" +
          list + "</ul></details>\n";
 }
 

@@ -52,6 +52,7 @@ class FakeSubject final : public CostSubject {
     ++frames_drawn;
     indices.push_back(index);
     index_ = index;
+    version_drawn_ = knobs_.version();
     if (fail_after > 0 && frames_drawn > fail_after) return Error{ErrorKind::failed, "the device is lost"};
     counted_frames += knobs_.value(kCount) ? 1 : 0;
     const double gpu_ms = knobs_.value(kSamples) + slower_by * frames_drawn;
@@ -62,10 +63,12 @@ class FakeSubject final : public CostSubject {
   [[nodiscard]] Result<FramePictures> draw_reference(const ReferenceInfo&, const FramePictures& frame,
                                                      std::uint32_t samples) override {
     ++references_drawn;
+    expect_last_frame_of_knobs();
     return reference(frame, samples);
   }
 
   [[nodiscard]] Result<std::optional<MovedDistance>> measure_distance(const ReferenceInfo&, std::uint32_t) override {
+    expect_last_frame_of_knobs();
     return distance ? distance(brightness()) : std::nullopt;
   }
   [[nodiscard]] std::string no_effect_reason(const Knob& knob) override { return reasons[knob.name]; }
@@ -95,7 +98,11 @@ class FakeSubject final : public CostSubject {
   std::map<std::string, std::string> reasons;
 
  private:
+  /// References and distances are computed from the last frame, which must have been drawn with the knobs as they are.
+  void expect_last_frame_of_knobs() const { EXPECT_EQ(version_drawn_, knobs_.version()); }
+
   KnobRegistry knobs_;
+  std::uint64_t version_drawn_ = 0;
   std::int32_t index_ = 0;
 };
 

@@ -33,6 +33,32 @@ TEST_F(JudgedKnobs, a_knob_that_changes_nothing_says_why) {
   EXPECT_THAT(ledger_report(ledger, {}), HasSubstr("nothing is counted"));
 }
 
+TEST_F(JudgedKnobs, a_value_that_changes_nothing_for_a_known_reason_is_not_timed) {
+  request_.knobs = {"fake.count", "fake.samples"};  // nothing is timed beside the first
+  request_.header.frames = 8;
+  subject_.reasons["fake.count"] = subject_.reasons["fake.samples"] = "a wrong reason";
+  const Ledger ledger = measure();
+  ASSERT_EQ(ledger.rows.size(), 6u);
+  for (const LedgerRow& row : ledger.rows) {
+    if (row.is_default) continue;
+    EXPECT_EQ(row.pairs == 0, row.knob == "fake.count") << row.value << ": other pictures are timed";
+    if (row.pairs > 0) continue;
+    EXPECT_TRUE(row.no_effect);
+    EXPECT_EQ(row.ratio, 1.0);
+    EXPECT_EQ(row.ms, ledger.rows[0].ms);
+    EXPECT_GT(row.ms.median_ms, 0.0) << "the default's";
+  }
+  const int drawn = subject_.frames_drawn;
+  const Ledger again = measure();
+  EXPECT_EQ(progress_.measured, 0);
+  EXPECT_EQ(subject_.frames_drawn, drawn) << "the default's frames are kept, too";
+  EXPECT_EQ(again.rows, ledger.rows);
+  subject_.reasons.clear();
+  EXPECT_THAT(ledger_table(ledger), HasSubstr("are equal, and they were not timed\n"));
+  request_.header.frames = 6;
+  for (const LedgerRow& row : measure().rows) EXPECT_GT(row.pairs, 0u) << "without a reason, too";
+}
+
 TEST_F(JudgedKnobs, a_taste_has_its_reason_in_place_of_errors) {
   request_.knobs = {"fake.taste"};
   Ledger ledger = measure();

@@ -44,9 +44,8 @@ TEST(timing, alternates_and_leaves_warm_up_out) {
   ASSERT_TRUE(times.ok());
   EXPECT_EQ(machine.sides(),
             "AABB"
-            "BAA"
-            "ABB"
-            "BAA");
+            "BBAAA"
+            "ABB");
   ASSERT_EQ(times->standard.size(), 3u);
   ASSERT_EQ(times->candidate.size(), 3u);
   for (const FrameCost& cost : times->standard) EXPECT_DOUBLE_EQ(cost.ms(), 10.0);
@@ -66,12 +65,46 @@ TEST(timing, measures_until_the_ratio_is_known_well_enough) {
   const auto pairs = [&](double noise, double wanted) {
     return time_alternating({.most_pairs = 200, .wanted = wanted}, noisy(noise, random))->candidate.size();
   };
-  EXPECT_EQ(pairs(0.0, 0.02), 12u) << "the fewest";
+  EXPECT_EQ(pairs(0.0, 0.02), 6u) << "the fewest";
   EXPECT_EQ(pairs(0.5, 0.02), 200u) << "the most";
   const std::size_t some = pairs(0.05, 0.02);
   EXPECT_GT(some, 16u);
   EXPECT_LT(some, 200u);
   EXPECT_LT(pairs(0.05, 0.06), some);
+}
+
+TEST(timing, the_interval_of_few_pairs_is_their_range) {
+  AlternatingTimes times;
+  for (int i = 0; i < 6; ++i) {
+    times.standard.push_back({.gpu_ms = 10.0});
+    times.candidate.push_back({.gpu_ms = 10.0 + i});
+  }
+  EXPECT_EQ(summarize_times(times).ratio_interval, (Interval{1.0, 1.5}));
+  const Interval sure = summarize_times(times).sure_interval;
+  EXPECT_DOUBLE_EQ(sure.low, 0.5) << "six pairs are never sure to 99.8 %: the range and its length on both sides";
+  EXPECT_DOUBLE_EQ(sure.high, 2.0);
+  for (int i = 0; i < 4; ++i) {
+    times.standard.push_back({.gpu_ms = 10.0});
+    times.candidate.push_back({.gpu_ms = 12.0});
+  }
+  EXPECT_EQ(summarize_times(times).sure_interval, (Interval{1.0, 1.5})) << "ten are";
+}
+
+TEST(timing, few_pairs_rarely_miss_the_ratio) {
+  std::mt19937 random(5);
+  int apart = 0, surely_apart = 0;
+  std::size_t pairs = 0;
+  constexpr int kRounds = 400;
+  for (int round = 0; round < kRounds; ++round) {
+    const auto times = time_alternating({.most_pairs = 40, .wanted = 0.06}, noisy(0.02, random));
+    pairs += times->candidate.size();
+    const TimedValue timed = summarize_times(*times);
+    apart += timed.ratio_interval.low > 1.0 || timed.ratio_interval.high < 1.0 ? 1 : 0;
+    surely_apart += timed.sure_interval.low > 1.0 || timed.sure_interval.high < 1.0 ? 1 : 0;
+  }
+  EXPECT_LT(pairs, 9u * kRounds) << "a quiet machine needs few";
+  EXPECT_LE(apart, 32) << "5 % of 95 % intervals are 20; stopping at the first narrow one adds some";
+  EXPECT_LE(surely_apart, 3);
 }
 
 TEST(timing, equal_sides_are_apart_hardly_ever) {
@@ -116,11 +149,11 @@ TEST(timing, tells_median_spread_and_ratio) {
 }
 
 TEST(timing, a_machine_that_slows_down_hardly_moves_the_ratio) {
-  FakeMachine drifting(0.05);
+  FakeMachine drifting(0.07);
   const TimedValue timed = summarize_times(*time_alternating({.most_pairs = 20, .wanted = 0.0}, drifting.runner()));
   EXPECT_GT(timed.ms.p90_ms, timed.ms.p10_ms + 2.0);
   // The ratio at the middle frame of the run. Timing one side after the other would give more than 2.
-  const double middle = 0.05 * 36.0;
+  const double middle = 0.07 * 27.0;
   EXPECT_NEAR(timed.ratio, (20.0 + middle) / (10.0 + middle), 0.05);
 }
 
