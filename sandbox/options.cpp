@@ -149,6 +149,11 @@ std::vector<CommandApp> add_commands(CLI::App& root, Options& options, RawTexts&
           "Combinations of values to measure, with the default and the exact setting; 0: none; default: 24, or "
           "10 with --quick, and 0 with several cameras or times")
       ->type_name("N");
+  cost->add_option("--minutes", options.minutes,
+                   "About how long to measure: values get fewer frames, at least 6 pairs each, and wider intervals "
+                   "(default 9 with --quick, else no limit)")
+      ->check(CLI::Range(0.01, 1e6))
+      ->type_name("N");
   CLI::App* bench = add(Command::bench, "bench", "Run benchmarks: the papers' tables and the CPU systems");
   bench->add_option("NAME", options.names, "Benchmarks to run: the id NAME, or all ids that begin with NAME and a dot");
   bench->add_option("--scene", options.scene, scene_text)->type_name("SCENE");

@@ -78,6 +78,7 @@ struct Options {
   bool list = false;               ///< bench
   bool strict = false;             ///< bench
 
+  std::optional<double> minutes;        ///< cost: how long to measure; none: as --quick implies
   std::optional<std::uint32_t> points;  ///< cost: combinations to measure; none: as many as --quick implies
 };
 

@@ -147,6 +147,7 @@ inline constexpr std::uint32_t kLedgerSamples = 256;  ///< samples of references
 inline constexpr std::uint32_t kLedgerPoints = 24;
 inline constexpr std::uint32_t kQuickPoints = 10;
 inline constexpr std::uint32_t kQuickFrames = 40;
+inline constexpr double kQuickSeconds = 540.0;
 inline constexpr std::uint32_t kQuickSamples = 64;
 inline constexpr std::uint32_t kQuickWidth = 320;
 inline constexpr std::uint32_t kQuickHeight = 180;

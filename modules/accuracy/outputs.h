@@ -139,12 +139,13 @@ struct LedgerHeader {
   std::uint32_t subgroup_size = 0;
   std::uint32_t width = 0;
   std::uint32_t height = 0;
-  std::string clock;          ///< what LedgerRow::ms is
-  std::string version;        ///< of the program
-  std::string build;          ///< hash of this build, hexadecimal
-  std::string host;           ///< name of the machine; empty in ledgers of earlier versions
-  bool quick = false;         ///< small picture, few frames and samples: noisier
-  std::uint32_t frames = 0;   ///< most timed frames per value
+  std::string clock;         ///< what LedgerRow::ms is
+  std::string version;       ///< of the program
+  std::string build;         ///< hash of this build, hexadecimal
+  std::string host;          ///< name of the machine; empty in ledgers of earlier versions
+  bool quick = false;        ///< small picture, few frames and samples: noisier
+  std::uint32_t frames = 0;  ///< most timed frames per value
+  double seconds = 0.0;  ///< values get fewer frames, at least 6, so that measuring takes about so long; 0: no limit
   std::uint32_t samples = 0;  ///< samples of references that sample
   bool operator==(const LedgerHeader&) const = default;
 };
@@ -218,9 +219,9 @@ struct Ledger {
 /// Sets no_effect and on_front of every row, for each knob separately. A row is on the front unless another value
 ///   is as right and significantly cheaper (the intervals of their ratios are apart), or
 ///   is not significantly dearer, and more right by more than the references' noise.
-/// Of values with equal pictures at most one is: the one that is cheaper than the others (by their 99.8 % intervals and
-/// more than 0.03 ms), or else the default. If that is all values of the knob, none is. Rows without an error and wrong
-/// rows are on no front.
+/// Of values with equal pictures at most one is: the one that is cheaper than the others (their 99.8 % intervals are
+/// more than 3 % apart, their medians more than 0.03 ms), or else the default. If that is all values of the knob, none
+/// is. Rows without an error and wrong rows are on no front.
 void mark_pareto_front(std::vector<LedgerRow>& rows);
 
 /// One ledger of several, each of another camera or time. Each value has its greatest error, ratio, time and memory

@@ -143,6 +143,9 @@ LedgerHeader header_of(const Session& session, const Options& options) {
           .host = host_name(),
           .quick = options.quick,
           .frames = options.quick ? kQuickFrames : kLedgerFrames,
+          .seconds = options.minutes ? *options.minutes * 60.0
+                     : options.quick ? kQuickSeconds
+                                     : 0.0,
           .samples = options.quick ? kQuickSamples : kLedgerSamples};
 }
 
@@ -198,6 +201,7 @@ std::string command_line(const Options& options) {
   const Options standard;
   if (options.quick) line += " --quick";
   add("--points", std::to_string(options.points.value_or(0)), options.points.has_value());
+  add("--minutes", formatted("%.17g", options.minutes.value_or(0.0)), options.minutes.has_value());
   add("--size", formatted("%ux%u", options.width, options.height), options.size_given);
   add("--knobs", options.knobs, !options.knobs.empty());
   add("--camera", options.camera, !options.camera.empty());
@@ -262,6 +266,7 @@ Result<MeasuredCameras> measure_cameras(const Options& options, const std::vecto
     progress.begin_camera(i, cameras.size(), cameras[i]);
     CostRequest request = make_request(session, own, chosen);
     request.header.camera = cameras[i].name();
+    request.header.seconds /= static_cast<double>(cameras.size());
     auto ledger = measure_costs(request, costs, progress);
     if (!ledger) return ledger.error();
     GLOAM_TRY(session.check_validation());

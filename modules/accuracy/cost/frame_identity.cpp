@@ -48,7 +48,7 @@ std::string knobs_identity(const KnobRegistry& knobs, std::string_view left_out)
 
 std::string protocol_identity(const CostRequest& request) {
   return joined_line(" host '" + request.header.host + "'") + " frames " + std::to_string(request.header.frames) +
-         " sequence " + std::to_string(request.sequence);
+         (request.header.seconds > 0.0 ? " in limited time" : "") + " sequence " + std::to_string(request.sequence);
 }
 
 }  // namespace gloam

@@ -32,12 +32,13 @@ std::vector<LinearPicture> light_of(const std::vector<FramePictures>& frames, bo
 }  // namespace
 
 KnobMeasurement::KnobMeasurement(const CostRequest& request, CostSubject& subject, CostProgress& progress,
-                                 WholeFrame& whole, DrawnSettings& settings, const Knob& knob)
+                                 WholeFrame& whole, DrawnSettings& settings, TimePlan& plan, const Knob& knob)
     : request_(request),
       subject_(subject),
       progress_(progress),
       whole_(whole),
       settings_(settings),
+      plan_(plan),
       knob_(knob),
       users_(subject.knobs().text(knob)),
       default_(value_text(knob, knob.default_number)),
@@ -330,9 +331,7 @@ Result<AlternatingTimes> KnobMeasurement::time(const std::string& value) {
     GLOAM_TRY(set(side == TimedSide::standard ? default_ : value));
     return subject_.draw(index++);
   };
-  const LedgerHeader& header = request_.header;
-  return time_alternating({.most_pairs = header.frames, .wanted = header.quick ? kQuickInterval : kLedgerInterval},
-                          run);
+  return time_in_plan(request_.header, plan_, run);
 }
 
 Result<std::vector<FrameCost>> KnobMeasurement::time_default() {

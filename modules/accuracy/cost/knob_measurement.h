@@ -9,6 +9,7 @@
 
 #include "modules/accuracy/cost/comparison.h"
 #include "modules/accuracy/cost/drawn_settings.h"
+#include "modules/accuracy/cost/time_plan.h"
 #include "modules/accuracy/cost/timing.h"
 #include "modules/accuracy/cost/whole_frame.h"
 #include "modules/accuracy/ledger/reference_cache.h"
@@ -23,7 +24,7 @@ class KnobMeasurement {
  public:
   /// All must outlive it. progress: gets the pictures.
   KnobMeasurement(const CostRequest& request, CostSubject& subject, CostProgress& progress, WholeFrame& whole,
-                  DrawnSettings& settings, const Knob& knob);
+                  DrawnSettings& settings, TimePlan& plan, const Knob& knob);
   ~KnobMeasurement();
   KnobMeasurement(const KnobMeasurement&) = delete;
   KnobMeasurement& operator=(const KnobMeasurement&) = delete;
@@ -81,6 +82,7 @@ class KnobMeasurement {
   CostProgress& progress_;
   WholeFrame& whole_;
   DrawnSettings& settings_;
+  TimePlan& plan_;
   const Knob& knob_;
   std::string users_;  ///< the knob's value before measuring
   std::string default_;

@@ -23,14 +23,16 @@ class LedgerRun {
         progress_(progress),
         store_(request.folder + "/measurements"),
         settings_(subject),
-        whole_(request, subject, settings_) {
+        whole_(request, subject, settings_),
+        plan_(request.header.seconds) {
     const std::vector<PlannedRow> rows = planned_rows();
     total_ = rows.size();
+    left_timed_ = static_cast<std::size_t>(std::ranges::count(rows, false, &PlannedRow::is_default));
     progress_.plan(rows);
   }
 
   [[nodiscard]] Status measure(const std::string& name) {
-    KnobMeasurement measurement(request_, subject_, progress_, whole_, settings_, knob(name));
+    KnobMeasurement measurement(request_, subject_, progress_, whole_, settings_, plan_, knob(name));
     bool own_timed = false;
     KnobRows& rows = knobs_.emplace_back(KnobRows{knob(name).module, measurement.default_is_users(), {}});
     bool& timed = rows.default_is_users ? users_timed_ : own_timed;
@@ -56,7 +58,7 @@ class LedgerRun {
 
   /// Measures the combinations that the rows promise. They share the default's time with the rows.
   [[nodiscard]] Status measure_points(Ledger& ledger) {
-    PointsRun points(request_, subject_, progress_, whole_, settings_, ledger.rows);
+    PointsRun points(request_, subject_, progress_, whole_, settings_, plan_, ledger.rows);
     GLOAM_TRY(points.measure());
     knobs_.push_back(std::move(points.rows()));
     share_default_times(knobs_);
@@ -95,7 +97,9 @@ class LedgerRun {
     const bool resumed = row.has_value();
     if (!resumed) {
       progress_.measuring(name, value, done_, total_);
+      plan_.begin_row(total_ - done_ + request_.points, left_timed_ + request_.points);
       auto measured = measurement.measure(value);
+      plan_.end_row();
       if (!measured) return Error{measured.error().kind, name + "=" + value + ": " + measured.error().message};
       progress_.phase(CostPhase::other);
       row = std::move(measured).value();
@@ -103,6 +107,7 @@ class LedgerRun {
     }
     progress_.finished(row->row, resumed);
     ++done_;
+    left_timed_ -= row->row.is_default ? 0 : 1;
     rows.rows.push_back(std::move(*row));
     return {};
   }
@@ -127,6 +132,8 @@ class LedgerRun {
   DrawnSettings settings_;
   WholeFrame whole_;
   bool users_timed_ = false;  ///< a row has frames of the user's settings, which give all rows of them their time
+  TimePlan plan_;
+  std::size_t left_timed_ = 0;  ///< rows that are not finished, without those of defaults
   std::size_t done_ = 0;
   std::size_t total_ = 0;
   std::vector<KnobRows> knobs_;

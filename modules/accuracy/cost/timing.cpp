@@ -83,7 +83,16 @@ Result<AlternatingTimes> time_alternating(const TimingPlan& plan, const RunFrame
     GLOAM_TRY(run_frames(run, second, plan.warm_up));
     GLOAM_TRY(measure_frames(run, second, pairs, times));
     std::swap(first, second);
-  } while (times.candidate.size() < plan.most_pairs && !known_well(plan, times));
+  } while (times.candidate.size() < plan.most_pairs && !known_well(plan, times) &&
+           !(plan.out_of_time && times.candidate.size() >= kLeastPairs && plan.out_of_time()));
+  return times;
+}
+
+Result<AlternatingTimes> time_in_plan(const LedgerHeader& header, TimePlan& plan, const RunFrame& run) {
+  TimingPlan timing = {.most_pairs = header.frames, .wanted = header.quick ? kQuickInterval : kLedgerInterval};
+  timing.out_of_time = plan.begin_timing();
+  auto times = time_alternating(timing, run);
+  plan.end_timing();
   return times;
 }
 

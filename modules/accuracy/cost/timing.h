@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/core/result.h"
+#include "modules/accuracy/cost/time_plan.h"
 #include "modules/accuracy/metrics/statistics.h"
 #include "modules/accuracy/module.h"
 
@@ -21,6 +22,8 @@ struct TimingPlan {
   double wanted = 0.02;
   std::uint32_t first_warm_up = 2;  ///< unmeasured frames per side at the start: pipelines, memory, caches
   std::uint32_t warm_up = 1;        ///< unmeasured frames after every change of side
+  /// Whether measuring ends although the interval is wide, after at least kLeastPairs; may be null.
+  std::function<bool()> out_of_time = nullptr;
 };
 
 /// Pairs that are drawn between two changes of side, each of which costs warm-up frames.
@@ -43,6 +46,9 @@ using RunFrame = std::function<Result<FrameCost>(TimedSide)>;
 /// Alternates the sides (BB AA, AA BB, BB AA …), so that a drift of the machine's speed affects both, until the ratio
 /// is known well enough.
 [[nodiscard]] Result<AlternatingTimes> time_alternating(const TimingPlan& plan, const RunFrame& run);
+
+/// time_alternating() as a ledger's header says, in a row's share of the ledger's time.
+[[nodiscard]] Result<AlternatingTimes> time_in_plan(const LedgerHeader& header, TimePlan& plan, const RunFrame& run);
 
 /// Of values that change nothing, one in twenty would lie outside a 95 % interval, and there are a hundred in a ledger.
 inline constexpr double kSureProbability = 0.998;

@@ -198,6 +198,7 @@ Json json_of(const LedgerHeader& header) {
   json["gloam"] = {{"version", header.version}, {"build", header.build}};
   json["quick"] = header.quick;
   json["frames"] = header.frames;
+  if (header.seconds > 0.0) json["seconds"] = header.seconds;
   json["clock"] = header.clock;
   json["reference_samples"] = header.samples;
   return json;
@@ -221,6 +222,7 @@ LedgerHeader header_of(const Json& json) {
   header.host = json.value("host", std::string());
   header.quick = json.at("quick").get<bool>();
   header.frames = json.at("frames").get<std::uint32_t>();
+  header.seconds = json.value("seconds", 0.0);
   header.clock = json.value("clock", std::string());
   header.samples = json.at("reference_samples").get<std::uint32_t>();
   return header;

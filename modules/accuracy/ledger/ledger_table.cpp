@@ -79,6 +79,9 @@ std::string head(const LedgerHeader& header) {
   if (header.quick)
     text += formatted("quick: %ux%u, at most %u frames a value, %u reference samples: errors and times are noisier\n",
                       header.width, header.height, header.frames, header.samples);
+  if (header.seconds > 0.0)
+    text += formatted("values get fewer frames, at least 6, so that measuring takes about %g minutes\n",
+                      header.seconds / 60.0);
   return text;
 }
 

@@ -18,7 +18,8 @@ bool same_picture(const LedgerRow& a, const LedgerRow& b) { return !a.picture.em
 bool significantly_cheaper(const LedgerRow& a, const LedgerRow& b) {
   if (!same_picture(a, b)) return a.ratio_high < b.ratio_low;
   constexpr double kResolution_ms = 0.03;  // of processor time: frames of the same work differ by as much
-  return a.sure_high < b.sure_low && b.ms.median_ms - a.ms.median_ms > kResolution_ms;
+  constexpr double kBetweenRuns = 0.03;    // other runs have medians outside of one run's interval by as much
+  return a.sure_high < (1.0 - kBetweenRuns) * b.sure_low && b.ms.median_ms - a.ms.median_ms > kResolution_ms;
 }
 
 bool significantly_righter(const LedgerRow& a, const LedgerRow& b) {

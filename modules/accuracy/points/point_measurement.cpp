@@ -21,12 +21,13 @@ std::vector<KnobValue> settings_with(const KnobRegistry& knobs, const Changes& c
 }
 
 PointMeasurement::PointMeasurement(const CostRequest& request, CostSubject& subject, CostProgress& progress,
-                                   WholeFrame& whole, DrawnSettings& drawn, Changes changes)
+                                   WholeFrame& whole, DrawnSettings& drawn, TimePlan& plan, Changes changes)
     : request_(request),
       subject_(subject),
       progress_(progress),
       whole_(whole),
       drawn_(drawn),
+      plan_(plan),
       settings_(settings_with(subject.knobs(), changes)) {
   for (const auto& [name, value] : changes) {
     const Knob* knob = subject.knobs().find(name);
@@ -67,9 +68,7 @@ Result<AlternatingTimes> PointMeasurement::time() {
     GLOAM_TRY(set(side));
     return subject_.draw(index++);
   };
-  const LedgerHeader& header = request_.header;
-  return time_alternating({.most_pairs = header.frames, .wanted = header.quick ? kQuickInterval : kLedgerInterval},
-                          run);
+  return time_in_plan(request_.header, plan_, run);
 }
 
 Result<TimedRow> PointMeasurement::measure() {

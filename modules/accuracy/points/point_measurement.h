@@ -21,7 +21,7 @@ class PointMeasurement {
   /// All must outlive it. changes: of existing knobs to valid values. The knobs must have the user's values whenever a
   /// member is called, and have them afterwards.
   PointMeasurement(const CostRequest& request, CostSubject& subject, CostProgress& progress, WholeFrame& whole,
-                   DrawnSettings& drawn, Changes changes);
+                   DrawnSettings& drawn, TimePlan& plan, Changes changes);
 
   /// Everything that the point depends on, in one line.
   [[nodiscard]] std::string identity() const;
@@ -37,6 +37,7 @@ class PointMeasurement {
   CostProgress& progress_;
   WholeFrame& whole_;
   DrawnSettings& drawn_;
+  TimePlan& plan_;
   std::vector<KnobOverride> users_;    ///< the user's values of the changed knobs
   std::vector<KnobOverride> changes_;  ///< in the same order
   std::vector<KnobValue> settings_;

@@ -39,12 +39,13 @@ ModelRatio ratio_of(std::vector<double> ratios) {
 }  // namespace
 
 PointsRun::PointsRun(const CostRequest& request, CostSubject& subject, CostProgress& progress, WholeFrame& whole,
-                     DrawnSettings& drawn, const std::vector<LedgerRow>& rows)
+                     DrawnSettings& drawn, TimePlan& plan, const std::vector<LedgerRow>& rows)
     : request_(request),
       subject_(subject),
       progress_(progress),
       whole_(whole),
       drawn_(drawn),
+      plan_(plan),
       model_(rows, subject.knobs()),
       store_(request.folder + "/measurements"),
       exact_(exact_changes(subject.knobs())) {}
@@ -55,7 +56,7 @@ bool PointsRun::knows(const Changes& changes) const {
 
 Status PointsRun::add(Changes changes) {
   if (knows(changes)) return {};
-  PointMeasurement measurement(request_, subject_, progress_, whole_, drawn_, changes);
+  PointMeasurement measurement(request_, subject_, progress_, whole_, drawn_, plan_, changes);
   const std::string identity = measurement.identity();
   std::optional<TimedRow> row = store_.load(identity);
   if (row && !has_pictures(row->row, progress_)) row.reset();
@@ -63,7 +64,10 @@ Status PointsRun::add(Changes changes) {
   if (!resumed) {
     const std::string text = settings_text(settings_with(subject_.knobs(), changes));
     progress_.measuring_point(text, planned_.size(), std::max<std::size_t>(request_.points, 2));
+    const std::size_t left = std::max<std::size_t>(request_.points, planned_.size() + 1) - planned_.size();
+    plan_.begin_row(left, left);
     auto measured = measurement.measure();
+    plan_.end_row();
     if (!measured) return Error{measured.error().kind, text + ": " + measured.error().message};
     progress_.phase(CostPhase::other);
     row = std::move(measured).value();

@@ -17,7 +17,7 @@ class PointsRun {
  public:
   /// All must outlive it. rows: finished. The knobs must have the user's values.
   PointsRun(const CostRequest& request, CostSubject& subject, CostProgress& progress, WholeFrame& whole,
-            DrawnSettings& drawn, const std::vector<LedgerRow>& rows);
+            DrawnSettings& drawn, TimePlan& plan, const std::vector<LedgerRow>& rows);
 
   /// At most request.points combinations, but always the user's settings and the exact one.
   [[nodiscard]] Status measure();
@@ -40,6 +40,7 @@ class PointsRun {
   CostProgress& progress_;
   WholeFrame& whole_;
   DrawnSettings& drawn_;
+  TimePlan& plan_;
   const CostModel model_;
   const MeasurementStore store_;
   Changes exact_;

@@ -170,7 +170,10 @@ std::string conditions_section(const ReportData& data) {
       term("Device", header.device + " (" + header.device_type + formatted(", subgroups of %u)", header.subgroup_size));
   html += term("Driver", header.driver);
   html += term("Clock", header.clock);
-  html += term("Frames", formatted("at most %u pairs a value", header.frames));
+  html +=
+      term("Frames", formatted("at most %u pairs a value", header.frames) +
+                         (header.seconds > 0.0 ? formatted(", fewer to end in about %g minutes", header.seconds / 60.0)
+                                               : std::string()));
   html += term("Reference samples", formatted("%u a pixel", header.samples));
   html += term("Program", "gloam " + header.version + " (" + header.build + ")");
   if (header.quick) html += term("Quick", "a small picture, few frames and samples: errors and times are noisier");

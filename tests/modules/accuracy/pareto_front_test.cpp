@@ -95,7 +95,11 @@ TEST(pareto_front, has_no_value_of_a_knob_that_changes_nothing) {
   rows[0].ratio_high = 0.99;
   mark_pareto_front(rows);
   EXPECT_TRUE(rows[0].no_effect) << "by chance";
-  rows[0].sure_high = 0.99;
+  rows[0].sure_high = 0.98;
+  rows[1].sure_low = 1.0;
+  mark_pareto_front(rows);
+  EXPECT_TRUE(rows[0].no_effect) << "another run would say otherwise";
+  rows[0].sure_high = 0.96;
   mark_pareto_front(rows);
   EXPECT_TRUE(rows[0].on_front);
   EXPECT_FALSE(rows[0].no_effect);

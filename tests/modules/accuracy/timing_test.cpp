@@ -73,6 +73,16 @@ TEST(timing, measures_until_the_ratio_is_known_well_enough) {
   EXPECT_LT(pairs(0.05, 0.06), some);
 }
 
+TEST(timing, ends_with_six_pairs_when_the_time_is_spent) {
+  std::mt19937 random(3);
+  int asked = 0;
+  TimingPlan plan = {.most_pairs = 200, .wanted = 0.02};
+  plan.out_of_time = [&] { return ++asked > 3; };
+  EXPECT_EQ(time_alternating(plan, noisy(0.5, random))->candidate.size(), 12u);
+  plan.out_of_time = [] { return true; };
+  EXPECT_EQ(time_alternating(plan, noisy(0.5, random))->candidate.size(), 6u);
+}
+
 TEST(timing, the_interval_of_few_pairs_is_their_range) {
   AlternatingTimes times;
   for (int i = 0; i < 6; ++i) {
