@@ -36,6 +36,7 @@ struct RawTexts {
   std::optional<std::string> budget;
   std::optional<std::string> ledger;
   std::optional<std::string> shard;
+  std::optional<std::string> minutes;
   bool version = false;
 };
 
@@ -82,6 +83,37 @@ void add_machine_options(CLI::App& app, Options& options, RawTexts& raw) {
   app.add_flag("--quiet", options.quiet, "Print only errors and requested output");
 }
 
+constexpr const char* kSceneText = "A .gltf or .glb file, or builtin:NAME";
+
+void add_cost_options(CLI::App& cost, Options& options, RawTexts& raw) {
+  cost.add_option("SCENE", options.scene, kSceneText);
+  cost.add_option("--knobs", options.knobs, "Measure only these knobs, comma-separated; * stands for any characters")
+      ->type_name("A,B");
+  cost.add_flag("--quick", options.quick, "Fewer repetitions, and 320x180 without --size");
+  cost.add_option("--cameras", options.cameras,
+                  "Measure several cameras, comma-separated: the ledger has the worst of them, and each camera's rows")
+      ->type_name("A,B");
+  cost.add_flag("--path", options.path,
+                "Measure each camera at 5 times, evenly over the scene's longest animation, or, without animations, 5 "
+                "positions on a path through its cameras (those of --cameras): the ledger has the worst");
+  cost.add_option("--list", options.scene_list,
+                  "Measure the scenes of a file instead of SCENE: one a line with options of its own; paths are "
+                  "relative to the file")
+      ->type_name("FILE");
+  cost.add_option("--shard", raw.shard, "With --list: measure only entries I, I+N, I+2N… (default 1/1: all)")
+      ->type_name("I/N");
+  cost.add_option("--merge", options.merge, "Write one table and one page of the ledgers in these folders of --list")
+      ->type_name("DIR");
+  cost.add_option("--points", options.points,
+                  "Combinations of values to measure, with the default and the exact setting; 0: none; default: 24, or "
+                  "10 with --quick, and 0 with several cameras or times")
+      ->type_name("N");
+  cost.add_option("--minutes", raw.minutes,
+                  "About how long to measure: values get fewer frames, at least 6 pairs each, and wider intervals "
+                  "(default 9 with --quick, else no limit)")
+      ->type_name("N");
+}
+
 struct CommandApp {
   Command command;
   CLI::App* app;
@@ -96,9 +128,8 @@ std::vector<CommandApp> add_commands(CLI::App& root, Options& options, RawTexts&
     commands.push_back({command, app});
     return app;
   };
-  const char* const scene_text = "A .gltf or .glb file, or builtin:NAME";
   CLI::App* play = add(Command::play, "play", "Open a window");
-  play->add_option("SCENE", options.scene, scene_text);
+  play->add_option("SCENE", options.scene, kSceneText);
   play->add_option("--scale", raw.scale,
                    "Share of the window's width and height that is drawn: auto (default; 1 with --stats or --trace) "
                    "keeps the picture fluent, or a number in 0.25…1")
@@ -111,52 +142,24 @@ std::vector<CommandApp> add_commands(CLI::App& root, Options& options, RawTexts&
   // For tests: see sandbox/window/input_script.h.
   play->add_option("--script", options.script)->group("");
   CLI::App* render = add(Command::render, "render", "Render without a window");
-  render->add_option("SCENE", options.scene, scene_text)->required();
+  render->add_option("SCENE", options.scene, kSceneText)->required();
   render
       ->add_option("--in-flight", raw.in_flight,
                    "Frames in flight: 1 waits for each frame (default), 2 draws without a pause between frames")
       ->type_name("N");
   CLI::App* inspect = add(Command::inspect, "inspect", "Print a scene's contents, the effects it needs, and why");
-  inspect->add_option("SCENE", options.scene, scene_text)->required();
+  inspect->add_option("SCENE", options.scene, kSceneText)->required();
   inspect->add_flag("--json", options.json, "Print JSON");
   CLI::App* bake = add(Command::bake, "bake", "Capture reflection proxies and probes, and keep them");
-  bake->add_option("SCENE", options.scene, scene_text)->required();
+  bake->add_option("SCENE", options.scene, kSceneText)->required();
   bake->add_option("--fit-proxies", options.fit_proxies,
                    "Fit at most N proxies to the scene and write them as glTF nodes (default out/<scene>.proxies.json)")
       ->type_name("N");
   bake->add_flag("--beside", options.beside, "Write the captures beside the scene file, not to the cache");
-  CLI::App* cost = add(Command::cost, "cost", "Measure error and time of each knob's values");
-  cost->add_option("SCENE", options.scene, scene_text);
-  cost->add_option("--knobs", options.knobs, "Measure only these knobs, comma-separated; * stands for any characters")
-      ->type_name("A,B");
-  cost->add_flag("--quick", options.quick, "Fewer repetitions, and 320x180 without --size");
-  cost->add_option("--cameras", options.cameras,
-                   "Measure several cameras, comma-separated: the ledger has the worst of them, and each camera's rows")
-      ->type_name("A,B");
-  cost->add_flag("--path", options.path,
-                 "Measure each camera at 5 times, evenly over the scene's longest animation, or, without animations, 5 "
-                 "positions on a path through its cameras (those of --cameras): the ledger has the worst");
-  cost->add_option("--list", options.scene_list,
-                   "Measure the scenes of a file instead of SCENE: one a line with options of its own; paths are "
-                   "relative to the file")
-      ->type_name("FILE");
-  cost->add_option("--shard", raw.shard, "With --list: measure only entries I, I+N, I+2N… (default 1/1: all)")
-      ->type_name("I/N");
-  cost->add_option("--merge", options.merge, "Write one table and one page of the ledgers in these folders of --list")
-      ->type_name("DIR");
-  cost->add_option(
-          "--points", options.points,
-          "Combinations of values to measure, with the default and the exact setting; 0: none; default: 24, or "
-          "10 with --quick, and 0 with several cameras or times")
-      ->type_name("N");
-  cost->add_option("--minutes", options.minutes,
-                   "About how long to measure: values get fewer frames, at least 6 pairs each, and wider intervals "
-                   "(default 9 with --quick, else no limit)")
-      ->check(CLI::Range(0.01, 1e6))
-      ->type_name("N");
+  add_cost_options(*add(Command::cost, "cost", "Measure error and time of each knob's values"), options, raw);
   CLI::App* bench = add(Command::bench, "bench", "Run benchmarks: the papers' tables and the CPU systems");
   bench->add_option("NAME", options.names, "Benchmarks to run: the id NAME, or all ids that begin with NAME and a dot");
-  bench->add_option("--scene", options.scene, scene_text)->type_name("SCENE");
+  bench->add_option("--scene", options.scene, kSceneText)->type_name("SCENE");
   bench->add_option("--json", options.json_file, "Write the rows as JSON")->type_name("FILE");
   bench->add_flag("--list", options.list, "List the ids");
   bench->add_flag("--strict", options.strict, "Fail if a figure misses its bar");
@@ -193,6 +196,16 @@ Status read_seconds(const char* option, std::string_view text, double& seconds) 
   return usage(std::string(option) + " wants a finite number of seconds, not '" + std::string(text) + "'");
 }
 
+Status read_minutes(std::string_view text, std::optional<double>& minutes) {
+  double number = 0.0;
+  const char* const end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, number);
+  if (read.ec != std::errc() || read.ptr != end || !(number > 0.0 && number <= 1e6))
+    return usage("--minutes wants a number above 0 and up to 1000000, not '" + std::string(text) + "'");
+  minutes = number;
+  return {};
+}
+
 Status read_shard(const std::string& text, Shard& shard) {
   const bool read = parse_pair(text, '/', shard.number, shard.count);
   if (read && shard.number >= 1 && shard.number <= shard.count) return {};
@@ -215,6 +228,7 @@ Status check_texts(Options& options, const RawTexts& raw) {
     if (options.scene_list.empty()) return usage("--shard needs --list FILE");
     GLOAM_TRY(read_shard(*raw.shard, options.shard));
   }
+  if (raw.minutes) GLOAM_TRY(read_minutes(*raw.minutes, options.minutes));
   if (raw.scale) GLOAM_TRY(read_scale(*raw.scale, options.scale));
   if (raw.in_flight) {
     if (raw.in_flight != "1" && raw.in_flight != "2")

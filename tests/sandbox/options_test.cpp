@@ -124,6 +124,11 @@ TEST(Options, help_and_version_are_to_be_printed) {
   EXPECT_NE(help_text().find("inspect"), std::string::npos);
 }
 
+TEST(Options, minutes_are_a_number_with_a_point) {
+  EXPECT_EQ(parsed({"cost", "a.gltf", "--minutes", "2.5"}).minutes, 2.5);
+  EXPECT_FALSE(parsed({"cost", "a.gltf"}).minutes.has_value());
+}
+
 TEST(Options, wrong_usage_is_refused) {
   fault({});
   fault({"dance"});
@@ -132,6 +137,8 @@ TEST(Options, wrong_usage_is_refused) {
   fault({"render", "a.gltf", "--no-such-option"});
   fault({"render", "a.gltf", "--frames", "0"});
   fault({"render", "a.gltf", "--frames", "many"});
+  for (const char* minutes : {"0", "-1", "nan", "inf", "1,5", "2m", "1e7"})
+    fault({"cost", "a.gltf", "--minutes", minutes});
   fault({"render", "a.gltf", "--frames", "-1"});
   fault({"render", "a.gltf", "--time", "nan"});
   fault({"render", "a.gltf", "--dt", "-0.1"});
