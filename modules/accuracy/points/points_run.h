@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "modules/accuracy/cost/default_times.h"
+#include "modules/accuracy/cost/time_plan.h"
 #include "modules/accuracy/cost/whole_frame.h"
 #include "modules/accuracy/ledger/measurement_store.h"
 #include "modules/accuracy/points/cost_model.h"
