@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "modules/accuracy/cost/timing.h"
 #include "modules/accuracy/cost/time_plan.h"
+#include "modules/accuracy/cost/timing.h"
 #include "modules/accuracy/cost/whole_frame.h"
 #include "modules/accuracy/ledger/row_json.h"
 #include "modules/accuracy/points/cost_model.h"
