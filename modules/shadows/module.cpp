@@ -153,7 +153,7 @@ class ShadowsModule final : public Module {
 
   void counters(const World& world, const RenderView& view, CounterSink& sink) const override {
     const ViewFaces& view_faces = world.view_resource<ViewFaces>(view.id);
-    const ViewMapState* kept = states_.find(world_id(world), view_faces.owner);
+    const ViewMapState* kept = states_.find(world_id(world), view_faces);
     const ShadowCounts counts = kept == nullptr ? ShadowCounts{} : kept->counts;
     const auto texels = static_cast<double>(view_faces.atlas.size()) * view_faces.atlas.size();
     sink.count("shadows.casting_lights", view_faces.casting_lights);

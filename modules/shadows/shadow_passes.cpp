@@ -48,7 +48,7 @@ void set_constants(const ShadowKnobs& knobs, std::uint32_t filter, ShadowsOutput
 /// frame makes final lists (for_lists): otherwise no module would draw them.
 ShadowMaps add_maps(FrameBuilder& frame, ShadowStates& states, const ShadowKnobs& knobs, bool for_lists) {
   const ViewFaces& view_faces = frame.world().view_resource<ViewFaces>(frame.view().id);
-  ViewMapState& kept = states.view(world_id(frame.world()), view_faces.owner, frame.view().id);
+  ViewMapState& kept = states.view(world_id(frame.world()), view_faces, frame.view().id);
   // A companion draws the maps as its main view had them last, which in most frames are those of this frame, too.
   const WithheldCasters* withheld = for_lists ? frame.find<WithheldCasters>() : nullptr;
   if (!frame.view().is_companion()) kept.history.withhold(withheld == nullptr ? WithheldCasters{} : *withheld);
@@ -62,7 +62,7 @@ ShadowMaps add_maps(FrameBuilder& frame, ShadowStates& states, const ShadowKnobs
 std::optional<FinalLists> add_final_lists(FrameBuilder& frame, ShadowStates& states, const ShadowMaps& maps,
                                           const ShadowKnobs& knobs, const ShadowsOutputs& outputs) {
   const ViewFaces& view_faces = frame.world().view_resource<ViewFaces>(frame.view().id);
-  ViewMapState& kept = states.view(world_id(frame.world()), view_faces.owner, frame.view().id);
+  ViewMapState& kept = states.view(world_id(frame.world()), view_faces, frame.view().id);
   ImageRef planes;
   if (knobs.classify) planes = add_shadow_planes_pass(frame, kept, maps, view_faces, knobs);
   return add_generate_passes(frame, knobs, planes, outputs);
@@ -116,7 +116,7 @@ void add_shadow_passes(FrameBuilder& frame, ShadowStates& states) {
   if (has_maps)
     maps = add_maps(frame, states, knobs, has_lists);
   else
-    states.skip_frame(world_id(frame.world()), view_faces.owner);
+    states.skip_frame(world_id(frame.world()), view_faces);
   if (!frame.status().ok()) return;
   outputs.atlas = maps.atlas;
   outputs.pyramid = maps.pyramid;

@@ -118,7 +118,7 @@ void add_shadow_view_pass(FrameBuilder& frame, const ShadowStates& states, OnceL
   if (shadows == nullptr) return;
   if (stem == "shadow_atlas") {
     const ViewMapState* kept =
-        states.find(world_id(frame.world()), frame.world().view_resource<ViewFaces>(frame.view().id).owner);
+        states.find(world_id(frame.world()), frame.world().view_resource<ViewFaces>(frame.view().id));
     const bool has_maps = shadows->atlas && shadows->atlas.resource != shadows->rows.resource;
     if (kept != nullptr && has_maps) add_atlas_view(frame, *shadows, *kept);
   } else if (const auto light = shown_light_or_warn(frame, once_log)) {

@@ -128,8 +128,8 @@ bool OverlayMaps::d16() const { return tools_->knobs.d16; }
 
 OverlayCopies OverlayMaps::start(FrameBuilder& frame, std::span<const OverlayFace> faces) const {
   const ShadowKnobs& knobs = tools_->knobs;
-  ViewMapState& kept = tools_->states.view(
-      world_id(frame.world()), frame.world().view_resource<ViewFaces>(frame.view().id).owner, frame.view().id);
+  ViewMapState& kept = tools_->states.view(world_id(frame.world()),
+                                           frame.world().view_resource<ViewFaces>(frame.view().id), frame.view().id);
   OverlayCopies copies{{faces.begin(), faces.end()}, knobs.d16};
   if (knobs.mip_operator == GLOAM_SHADOW_MIPS_COVERAGE) copies.depth_bits = ~GLOAM_SHADOW_FREE_BITS;
   const std::vector<shaders::ShadowCopyGroup> groups = copy_groups(faces);

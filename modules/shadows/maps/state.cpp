@@ -27,20 +27,20 @@ void ShadowStates::begin(gpu::Device& device) {
   std::erase_if(views_, [&](const auto& entry) { return entry.second.last_frame + kFramesKept < frame; });
 }
 
-ViewMapState& ShadowStates::view(std::uint64_t world, ViewId owner, ViewId user) {
-  ViewMapState& found = views_[{world, owner.value}];
+ViewMapState& ShadowStates::view(std::uint64_t world, const ViewFaces& faces, ViewId user) {
+  ViewMapState& found = views_[key_of(world, faces)];
   found.users.insert(user.value);
   found.last_frame = device_->frame_number();
   return found;
 }
 
-const ViewMapState* ShadowStates::find(std::uint64_t world, ViewId view) const {
-  const auto found = views_.find({world, view.value});
+const ViewMapState* ShadowStates::find(std::uint64_t world, const ViewFaces& faces) const {
+  const auto found = views_.find(key_of(world, faces));
   return found == views_.end() ? nullptr : &found->second;
 }
 
-void ShadowStates::skip_frame(std::uint64_t world, ViewId owner) {
-  const auto found = views_.find({world, owner.value});
+void ShadowStates::skip_frame(std::uint64_t world, const ViewFaces& faces) {
+  const auto found = views_.find(key_of(world, faces));
   if (found == views_.end()) return;
   found->second.counts = {};
   if (found->second.users.size() <= 1) found->second.frame.drawn.clear();

@@ -5,11 +5,12 @@
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <utility>
+#include <tuple>
 
 #include "engine/core/result.h"
 #include "engine/frame/transfers/upload.h"
 #include "engine/gpu/device.h"
+#include "modules/shadows/atlas/view_faces.h"
 #include "modules/shadows/atlas/view_map_state.h"
 #include "modules/shadows/maps/scratch.h"
 
@@ -27,13 +28,13 @@ class ShadowStates {
   /// Call once per view and frame, before the other functions. Forgets views, and destroys scratch images, that no
   /// frame has used for 120 frames.
   void begin(gpu::Device& device);
-  /// The view's state, empty at the first call. world: its world_id. owner: ViewFaces::owner, under which several views
-  /// share one state. user: the view.
-  [[nodiscard]] ViewMapState& view(std::uint64_t world, ViewId owner, ViewId user);
-  /// The view's state; null if view() was never called for it, or if it has been forgotten since.
-  [[nodiscard]] const ViewMapState* find(std::uint64_t world, ViewId owner) const;
-  /// Resets the view's counters and its list of drawn faces. For frames of the view that draw no maps.
-  void skip_frame(std::uint64_t world, ViewId owner);
+  /// The state of the atlas that holds these faces, empty at the first call. A view that shares an atlas at times has
+  /// another state then: it is another image. world: its world_id. user: the view.
+  [[nodiscard]] ViewMapState& view(std::uint64_t world, const ViewFaces& faces, ViewId user);
+  /// The state; null if view() was never called for it, or if it has been forgotten since.
+  [[nodiscard]] const ViewMapState* find(std::uint64_t world, const ViewFaces& faces) const;
+  /// Resets the state's counters and its list of drawn faces. For frames of the view that draw no maps.
+  void skip_frame(std::uint64_t world, const ViewFaces& faces);
   /// Forgets what only this view uses.
   void release_view(ViewId view);
   /// Staging memory of this frame for copies into images.
@@ -48,7 +49,11 @@ class ShadowStates {
   void release();
 
  private:
-  using Key = std::pair<std::uint64_t, std::uint32_t>;
+  /// World, ViewFaces::owner, and whether views share the atlas.
+  using Key = std::tuple<std::uint64_t, std::uint32_t, bool>;
+  static Key key_of(std::uint64_t world, const ViewFaces& faces) {
+    return {world, faces.owner.value, faces.shared != nullptr};
+  }
 
   gpu::Device* device_ = nullptr;
   std::map<Key, ViewMapState> views_;
