@@ -22,6 +22,7 @@ class LedgerRun {
         subject_(subject),
         progress_(progress),
         store_(request.folder + "/measurements"),
+        default_times_(request.folder + "/default_times"),
         settings_(subject),
         whole_(request, subject, settings_),
         plan_(request.header.seconds) {
@@ -42,12 +43,17 @@ class LedgerRun {
     }
     if (timed) return {};
     // Nothing was timed beside the default: the first knob has one value, or none that changes anything.
+    timed = true;
+    TimedRow& first = rows.rows.front();
+    const std::string identity = measurement.identity(first.row.value);
+    if (const std::optional<TimedRow> known = default_times_.load(identity)) {
+      first.standard = known->standard;
+      return {};
+    }
     auto frames = measurement.time_default();
     if (!frames) return frames.error();
-    TimedRow& first = rows.rows.front();
     first.standard = std::move(frames).value();
-    timed = true;
-    return store_.save(measurement.identity(first.row.value), first);
+    return default_times_.save(identity, first);
   }
 
   /// The rows, with fronts.
@@ -129,6 +135,7 @@ class LedgerRun {
   CostSubject& subject_;
   CostProgress& progress_;
   const MeasurementStore store_;
+  const MeasurementStore default_times_;  ///< rows of defaults that were timed alone
   DrawnSettings settings_;
   WholeFrame whole_;
   bool users_timed_ = false;  ///< a row has frames of the user's settings, which give all rows of them their time
