@@ -28,7 +28,8 @@ ComputeProgram compose_program(const ShadowsOutputs& shadows, bool directional, 
   return program;
 }
 
-shaders::CloseupConstants constants_of(const CloseupView& pair, const FrameBuilder& frame) {
+shaders::CloseupConstants constants_of(const CloseupView& pair, const RenderView& view,
+                                       std::span<const DirectionalLook> suns) {
   shaders::CloseupConstants c{};
   c.near_m = pair.face.near_m;
   c.emitter_diameter_m = pair.emitter_diameter_m;
@@ -41,10 +42,8 @@ shaders::CloseupConstants constants_of(const CloseupView& pair, const FrameBuild
   c.first_tile = pair.tiles.begin;
   c.light = pair.light_index;
   if (!pair.directional) return c;
-  const std::vector<DirectionalLook> suns =
-      directional_looks(frame.world().view_resource<VisibleLights>(frame.view().id));
   const DirectionalLook sun = pair.light_index < suns.size() ? suns[pair.light_index] : DirectionalLook{};
-  const shaders::ShadowCascade cascade = orthographic_constants(pair.face, frame.view().position);
+  const shaders::ShadowCascade cascade = orthographic_constants(pair.face, view.position);
   c.penumbra_m_per_m = pair.penumbra_m_per_m;
   c.row_u = cascade.row_u;
   c.row_v = cascade.row_v;
@@ -89,8 +88,10 @@ void write_final_lists(ComputePass& pass, FinalLists& lists) {
   lists.fallback_tiles = pass.write("fallback_tiles", lists.fallback_tiles);
 }
 
-/// `shadows`: with the filter for close-up maps and the atlas, pyramid and block of the close-up map.
-void compose_batch(FrameBuilder& frame, std::span<const CloseupView> pairs, const ShadowsOutputs& shadows) {
+/// `constants`: of each pair. `shadows`: with the filter for close-up maps and the atlas, pyramid and block of the
+/// close-up map.
+void compose_batch(FrameBuilder& frame, std::span<const CloseupView> pairs,
+                   std::span<const shaders::CloseupConstants> constants, const ShadowsOutputs& shadows) {
   const gpu::DeviceInfo& device = frame.services().device.info();
   FinalLists& lists = *frame.get<ShadowsOutputs>().final_lists;
   ComputePass pass(frame, "closeup_compose", compose_program(shadows, pairs.front().directional, device));
@@ -105,7 +106,7 @@ void compose_batch(FrameBuilder& frame, std::span<const CloseupView> pairs, cons
       pass.barrier();  // pairs may share tiles
       pass.use(compose_program(shadows, pair.directional, device));
     }
-    pass.uniform("closeup", constants_of(pair, frame));
+    pass.uniform("closeup", constants[i]);
     const uvec2 tiles = pair.tiles.end - pair.tiles.begin;
     pass.dispatch(tiles.x, tiles.y);
   }
@@ -153,6 +154,8 @@ void add_closeup_passes(FrameBuilder& frame, const CloseupKnobs& knobs) {
   overlay.start(frame, closeups->overlay);
   ShadowsOutputs looked = knobs.single_fetches ? by_single_fetches(*shadows) : *shadows;
   looked.block = drawer->block(frame, map.size);
+  const std::vector<DirectionalLook> suns =
+      directional_looks(frame.world().view_resource<VisibleLights>(frame.view().id));
   for (std::size_t first = 0; first < closeups->pairs.size(); first += knobs.batch) {
     const std::size_t count = std::min<std::size_t>(knobs.batch, closeups->pairs.size() - first);
     const std::vector<CloseupView> pairs = placed(std::span(closeups->pairs).subspan(first, count));
@@ -162,8 +165,10 @@ void add_closeup_passes(FrameBuilder& frame, const CloseupKnobs& knobs) {
     draw_batch(frame, pairs, mips, map);
     looked.atlas = map.atlas;
     looked.pyramid = map.pyramid;
-    compose_batch(frame, pairs, looked);
-    for (const CloseupView& pair : pairs) unculled.add(frame, pair, looked, constants_of(pair, frame));
+    std::vector<shaders::CloseupConstants> constants;
+    for (const CloseupView& pair : pairs) constants.push_back(constants_of(pair, frame.view(), suns));
+    compose_batch(frame, pairs, constants, looked);
+    for (std::size_t i = 0; i < pairs.size(); ++i) unculled.add(frame, pairs[i], looked, constants[i]);
     overlay.add(frame, copied, map);
   }
   overlay.finish(frame);

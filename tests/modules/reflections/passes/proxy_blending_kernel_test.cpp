@@ -333,29 +333,26 @@ TEST_F(ProxyBlend, screen_space_is_a_layer_among_the_proxies) {
     int judged = 0;
     BlendInput in = blend_input(seen, 1);
     in.ssr_color.assign(32 * 24, vec4(0.0f, 0.0f, 3.0f, 0.5f));  // not premultiplied
-    in.ssr_distance_m.assign(32 * 24, 0.0f);
-    for (std::uint32_t y = 0; y < 24; ++y)
-      for (std::uint32_t x = 0; x < 32; ++x) {
-        const double first = (0.0 - seen.position(x, y).z - 6.0) / seen.mirrored(x, y).z;
-        in.ssr_distance_m[seen.at(x, y)] = std::max(share * static_cast<float>(first), 0.0f);
-      }
+    for (std::uint32_t texel = 0; texel < 32 * 24; ++texel) {
+      const double first = (-seen.position(texel % 32, texel / 32).z - 6.0) / seen.mirrored(texel % 32, texel / 32).z;
+      in.ssr_distance_m.push_back(std::max(share * static_cast<float>(first), 0.0f));
+    }
     const Blended picture = blend(device(), in, world, images);
-    for (std::uint32_t y = 0; y < 24; ++y)
-      for (std::uint32_t x = 0; x < 32; ++x) {
-        const std::size_t texel = seen.at(x, y);
-        const dvec3 from = seen.position(x, y) + dvec3(0.0, 0.0, 6.0), direction = seen.mirrored(x, y);
-        if (seen.object[texel] != 0 || from.z < 1.0 || direction.y < 1e-3) continue;
-        const double first = -from.z / direction.z, second = (-4.0 - from.z) / direction.z;
-        const double screen = static_cast<double>(in.ssr_distance_m[texel]);
-        if (std::abs(screen - first) < 0.5 || std::abs(screen - second) < 0.5) continue;
-        const dvec4 a(0.25, 0.0, 0.0, 0.25), b(0.0, 1.0, 0.0, 1.0), s(0.0, 0.0, 1.5, 0.5);
-        std::vector<std::pair<double, dvec4>> layers = {{first, a}, {second, b}, {screen, s}};
-        std::ranges::sort(layers, [](const auto& l, const auto& r) { return l.first < r.first; });
-        dvec4 want(0.0);
-        for (const auto& layer : layers) want += (1.0 - want.w) * layer.second;
-        ++judged;
-        ASSERT_LT(glm::length(dvec4(picture.color[texel]) - want), 4e-3) << share << ", texel " << x << ", " << y;
-      }
+    for (std::uint32_t texel = 0; texel < 32 * 24; ++texel) {
+      const uvec2 at(texel % 32, texel / 32);
+      const dvec3 from = seen.position(at.x, at.y) + dvec3(0.0, 0.0, 6.0), direction = seen.mirrored(at.x, at.y);
+      if (seen.object[texel] != 0 || from.z < 1.0 || direction.y < 1e-3) continue;
+      const double first = -from.z / direction.z, second = (-4.0 - from.z) / direction.z,
+                   screen{in.ssr_distance_m[texel]};
+      if (std::abs(screen - first) < 0.5 || std::abs(screen - second) < 0.5) continue;
+      std::vector<std::pair<double, dvec4>> layers = {
+          {first, {0.25, 0.0, 0.0, 0.25}}, {second, {0.0, 1.0, 0.0, 1.0}}, {screen, {0.0, 0.0, 1.5, 0.5}}};
+      std::ranges::sort(layers, {}, &std::pair<double, dvec4>::first);
+      dvec4 want(0.0);
+      for (const auto& layer : layers) want += (1.0 - want.w) * layer.second;
+      ++judged;
+      ASSERT_LT(glm::length(dvec4(picture.color[texel]) - want), 4e-3) << share << ", texel " << at.x << ", " << at.y;
+    }
     EXPECT_GT(judged, 50) << share;
   }
 }
