@@ -7,7 +7,7 @@ import os
 import re
 import struct
 
-from inspect_test import TRIANGLE
+from gltf_scene import TRIANGLE
 from program_case import ProgramCase, main
 from window_case import read_png
 

@@ -11,7 +11,7 @@ import subprocess
 import threading
 import time
 
-from inspect_test import TRIANGLE
+from gltf_scene import TRIANGLE
 from program_case import ProgramCase, main
 
 SECONDS = 60  # an input that takes longer counts as a hang; on an idle machine each takes less than two

@@ -4,21 +4,10 @@
 import copy
 import json
 
+from gltf_scene import TRIANGLE
 from program_case import ProgramCase, main
 
 COUNTS = ("nodes", "meshes", "triangles", "instances", "drawn_triangles", "materials", "textures", "images", "lights", "skins")
-TRIANGLE = {
-    "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
-    "nodes": [{"mesh": 0, "name": "leaf"}, {"camera": 0, "name": "eye"}],
-    "cameras": [{"type": "perspective", "perspective": {"yfov": 0.8, "znear": 0.1}}],
-    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
-    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
-    "bufferViews": [{"buffer": 0, "byteLength": 36}],
-    "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,"
-                 "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],
-}
-
-
 class Inspect(ProgramCase):
     def inspect(self, scene):
         return json.loads(self.expect(0, "inspect", scene, "--json").stdout)
