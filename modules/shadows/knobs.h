@@ -205,6 +205,7 @@ struct ShadowSettings {
   std::uint32_t cascades = 4;       ///< cascades of a directional light, at most GLOAM_MAX_CASCADES
   float kernel_rim = 0.125f;        ///< width of a rim as a share of the half extent inside it; see rim_share()
   float texels_per_pixel = 3.0f;    ///< wanted shadow-map texels along a pixel's side; lowered until the maps fit
+  bool operator==(const ShadowSettings&) const = default;
 };
 
 void add_shadow_knobs(KnobRegistry& registry);

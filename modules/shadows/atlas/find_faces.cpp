@@ -227,10 +227,25 @@ void fill_directional(std::span<const ShadowLight> lights, const FacePlaces& pla
   }
 }
 
+/// Sizes of faces keep to those of the frame before while they still fit. After a change of what they were chosen for,
+/// or a cut, they are chosen anew: otherwise a picture would depend on settings that are long gone.
+void forget_sizes(const RenderView& view, const ShadowSettings& settings, std::uint32_t sharers, ViewFaces& shadows) {
+  const bool changed = shadows.settings != settings;
+  if (changed) shadows.side = {};
+  if (changed || shadows.sharers != sharers || view.camera_cut()) {
+    shadows.texels_per_pixel = 0.0f;
+    shadows.wanted.clear();
+  }
+  shadows.settings = settings;
+  shadows.sharers = sharers;
+}
+
 }  // namespace
 
 void find_shadows(std::span<const ShadowLight> local, std::span<const ShadowLight> directional, const RenderView& view,
                   const ShadowSettings& settings, const CasterBounds& casters, JobExecutor& jobs, ViewFaces& shadows) {
+  const std::uint32_t sharers = shadows.shared == nullptr ? 1 : shadows.shared->sharers();
+  forget_sizes(view, settings, sharers, shadows);
   Plans plans;
   plans.local.resize(local.size());
   shadows.casting_lights = 0;
@@ -238,7 +253,6 @@ void find_shadows(std::span<const ShadowLight> local, std::span<const ShadowLigh
     for (std::size_t i = range.begin; i < range.end; ++i)
       plans.local[i] = plan_local(local[i], view, settings, shadows.wanted);
   });
-  const std::uint32_t sharers = shadows.shared == nullptr ? 1 : shadows.shared->sharers();
   plan_directional(directional, view, settings, casters, sharers, plans);
   shadows.texels_per_pixel = local_density(settings, plans, sharers, shadows.texels_per_pixel);
   request_local(local, shadows, plans);

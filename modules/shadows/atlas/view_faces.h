@@ -12,6 +12,7 @@
 #include "modules/lights/components.h"
 #include "modules/shadows/atlas/placement.h"
 #include "modules/shadows/atlas/shared_places.h"
+#include "modules/shadows/knobs.h"
 #include "modules/shadows/outputs.h"
 #include "shaders/shadows/shadows_shared.h"
 
@@ -44,6 +45,8 @@ struct ViewFaces {
   bool leads = false;                    ///< companions share the atlas; its size goes by the faces of this view
   float texels_per_pixel = 0.0f;         ///< density of local lights' maps; kept from frame to frame; 0: no frame yet
   std::vector<WantedSize> wanted;        ///< ordered by entity index; kept from frame to frame
+  ShadowSettings settings;               ///< of the last frame
+  std::uint32_t sharers = 0;             ///< views that shared the atlas in the last frame; 0: no frame yet
 };
 
 }  // namespace gloam

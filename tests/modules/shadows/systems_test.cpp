@@ -272,6 +272,35 @@ TEST(ShadowSystems, change_no_map_when_lights_leave_the_view_of_a_full_atlas) {
       EXPECT_TRUE(before.light != face.light || before.index != face.index || before.square == face.square);
 }
 
+TEST(ShadowSystems, choose_sizes_anew_when_what_they_go_by_changes) {
+  ShadowWorld scene;
+  scene.add_random(60);
+  scene.shadow_settings().texels_per_pixel = 8.0f;
+  const auto sizes = [](const ViewFaces& shadows) {
+    std::vector<std::uint32_t> texels;
+    for (const ShadowFace& face : shadows.faces) texels.push_back(face.square.size);
+    return texels;
+  };
+  const ViewFaces& shadows = scene.run();
+  const float density = shadows.texels_per_pixel;
+  const std::vector<std::uint32_t> first = sizes(shadows);
+  scene.shadow_settings().atlas_size = 1024;
+  EXPECT_LT(scene.run().texels_per_pixel, density);
+  scene.shadow_settings().atlas_size = 4096;
+  EXPECT_EQ(scene.run().texels_per_pixel, density);
+  EXPECT_EQ(sizes(shadows), first);
+  scene.shadow_settings().texels_per_pixel = 0.5f;
+  EXPECT_NE(sizes(scene.run()), first);
+  scene.shadow_settings().texels_per_pixel = 8.0f;
+  EXPECT_EQ(sizes(scene.run()), first);
+  // The camera comes near a light and goes back, in a cut: what lies between says nothing.
+  scene.settings.world_from_camera = glm::translate(dmat4(1.0), dvec3(0.0, 0.0, -40.0));
+  EXPECT_NE(sizes(scene.run()), first);
+  scene.settings.world_from_camera = dmat4(1.0);
+  scene.settings.camera_cut = true;
+  EXPECT_EQ(sizes(scene.run()), first);
+}
+
 TEST(ShadowSystems, shrink_faces_of_a_full_atlas_and_say_so) {
   ShadowWorld scene;
   scene.add_random(400);

@@ -64,21 +64,22 @@ struct ShadowWorld : ModuleWorld {
     world.create(MeshInstance{}, WorldTransform{glm::translate(dmat4(1.0), at)});
   }
 
-  /// Runs a frame: prepares all views, then runs the systems of each.
-  void run(JobExecutor& executor, std::span<const ViewSettings> views, std::uint64_t frame = 0) {
+  /// Runs a frame: prepares all views, then runs the systems of each. Frame 0 is a camera cut.
+  void run(JobExecutor& executor, std::span<const ViewSettings> views, std::uint64_t number = 0) {
     schedule.run(Stage::world, world, executor);
     for (const ViewSettings& view : views) {
-      world.set_view_resource(view.id, make_view(view, frame));
+      world.set_view_resource(view.id, make_view(view, number, view.camera_cut ? number : 0));
       module->prepare_view(world, view.id, knobs);
       prepare_shadow_view(world, view.id, ShadowKnobs{});
     }
     for (const ViewSettings& view : views) schedule.run_view(view.id, world, executor);
   }
-  void run(JobExecutor& executor) { run(executor, {&settings, 1}); }
+  void run(JobExecutor& executor) { run(executor, {&settings, 1}, frame++); }
   const ViewFaces& run() {
     run(*make_serial_executor());
     return shadows();
   }
+  std::uint64_t frame = 0;  ///< number of the next one
   [[nodiscard]] const ViewFaces& shadows() const { return world.view_resource<ViewFaces>(settings.id); }
   [[nodiscard]] ShadowSettings& shadow_settings() {
     prepare_shadow_view(world, settings.id, ShadowKnobs{});
