@@ -105,8 +105,8 @@ void add_cost_options(CLI::App& cost, Options& options, RawTexts& raw) {
   cost.add_option("--merge", options.merge, "Write one table and one page of the ledgers in these folders of --list")
       ->type_name("DIR");
   cost.add_option("--points", options.points,
-                  "Combinations of values to measure, with the default and the exact setting; 0: none; default: 24, or "
-                  "10 with --quick, and 0 with several cameras or times")
+                  "Combinations of values to measure, in all cameras, with the default and the exact setting; 0: none; "
+                  "default: 24, or 10 with --quick")
       ->type_name("N");
   cost.add_option("--minutes", raw.minutes,
                   "About how long to measure: values get fewer frames, at least 6 pairs each, and wider intervals "

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -64,8 +65,11 @@ class CostSubject {
   /// Draws frame `index` of the measured sequence and waits for it. The sequence begins with 0; frames before it have a
   /// negative index. The same index shows the same moment.
   [[nodiscard]] virtual Result<FrameCost> draw(std::int32_t index) = 0;
-  /// GPU memory, in bytes over all modules, that frames like the last one need. Memory left over from other frames does
-  /// not count. May draw frames to find out.
+  /// Called once, with the user's settings, before memory is asked for: frees what only earlier frames needed, such as
+  /// the first ones and those with exact values. May draw frames for that.
+  [[nodiscard]] virtual Status settle_memory() { return {}; }
+  /// GPU memory, in bytes over all modules, that frames with the current knobs need. Memory left over from other frames
+  /// does not count. May draw frames to find out: those that follow the last one.
   [[nodiscard]] virtual Result<std::uint64_t> gpu_bytes() = 0;
   /// The counters of the last frame.
   [[nodiscard]] virtual FrameCounters counters() = 0;
@@ -92,7 +96,7 @@ struct PlannedRow {
 
 /// Kinds of work that measuring consists of.
 enum class CostPhase {
-  start,       ///< frames before the first row, until the session has settled
+  start,       ///< frames before the first row, until memory has settled
   pictures,    ///< frames that are read
   exact,       ///< frames with exact values, of one knob or of all
   references,  ///< references and distances that modules compute
@@ -108,7 +112,9 @@ inline constexpr std::size_t kCostPhases = 8;
 class CostProgress {
  public:
   virtual ~CostProgress() = default;
-  /// All rows, in the order in which finished() tells of them.
+  /// The next rows are of the camera with index `camera` of `cameras`.
+  virtual void begin_camera(std::size_t /*camera*/, std::size_t /*cameras*/) {}
+  /// All rows of the camera, in the order in which finished() tells of them.
   virtual void plan(const std::vector<PlannedRow>& /*rows*/) {}
   virtual void measuring(const std::string& knob, const std::string& value, std::size_t done, std::size_t total) = 0;
   /// `resumed`: the row was found in the folder and nothing was drawn.
@@ -170,6 +176,16 @@ inline constexpr std::uint32_t kQuickHeight = 180;
 /// Each row and point also has its error against the whole frame, which is drawn once. The knobs have their previous
 /// values afterwards. An error names the knob and the value.
 [[nodiscard]] Result<Ledger> measure_costs(const CostRequest& request, CostSubject& subject, CostProgress& progress);
+
+/// One camera of a ledger, or one moment.
+struct CostCamera {
+  CostRequest request;
+  CostSubject* subject = nullptr;  ///< no other camera's
+};
+
+/// The same for several cameras, at least one: the rows of each, and the worst of them (worst_of_cameras()). Each
+/// combination is measured in all cameras. The ledger's time, points and folder are those of the first request.
+[[nodiscard]] Result<Ledger> measure_costs(std::span<const CostCamera> cameras, CostProgress& progress);
 
 struct KnobMeaning {
   std::string knob;

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -183,6 +184,9 @@ struct LedgerPoint {
   LedgerRow measured;
   double predicted_ms = 0.0;    ///< by the model, from the rows
   double predicted_flip = 0.0;  ///< mean FLIP against the whole frame
+  /// Only of several cameras: the row in each, in the order of Ledger::cameras. Then `measured` is their worst: see
+  /// worst_point().
+  std::vector<LedgerRow> cameras = {};
   bool operator==(const LedgerPoint&) const = default;
 };
 
@@ -227,6 +231,12 @@ void mark_pareto_front(std::vector<LedgerRow>& rows);
 /// One ledger of several, each of another camera or time. Each value has its greatest error, ratio, time and memory
 /// over the cameras; fronts are of these. A single ledger stays as it is.
 [[nodiscard]] Ledger worst_of_cameras(std::vector<Ledger> ledgers);
+
+/// A combination's row over all cameras: the time of the camera where a frame takes longest, the greatest error and
+/// memory. Its ratio is to the default's time over all cameras, and its pictures are those of one camera.
+/// rows: in each camera, at least one. default_ms: median of the default in each. shown: the camera of the pictures.
+[[nodiscard]] LedgerRow worst_point(std::span<const LedgerRow> rows, std::span<const double> default_ms,
+                                    std::size_t shown);
 
 /// Why a row without a reference has none: row.no_reference, or a sentence that is always true.
 [[nodiscard]] std::string no_reference_text(const LedgerRow& row);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
 #include <chrono>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -44,7 +45,6 @@ class ConsoleProgress final : public CostProgress {
   }
 
   void measuring(const std::string& knob, const std::string& value, std::size_t done, std::size_t total) override {
-    begin_ = Clock::now();
     if (quiet_) return;
     const std::string camera = cameras_ > 1 ? formatted("camera %zu of %zu, ", camera_ + 1, cameras_) : std::string();
     const std::string row = knob + "=" + value + time_left_text(left_.seconds());
@@ -57,7 +57,7 @@ class ConsoleProgress final : public CostProgress {
 
   void finished(const LedgerRow& row, bool resumed) override {
     ++(resumed ? resumed_ : measured_);
-    const double took_s = std::chrono::duration<double>(Clock::now() - begin_).count();
+    const double took_s = std::chrono::duration<double>(Clock::now() - std::exchange(begin_, Clock::now())).count();
     left_.finished(resumed ? std::nullopt : std::optional(took_s));
     if (quiet_ || console_.shows_progress()) return;
     const std::string times = row.is_default ? std::string(": the default")
@@ -71,15 +71,15 @@ class ConsoleProgress final : public CostProgress {
     static_cast<void>(console_.flush());
   }
 
-  /// The next rows are of this camera, the one of index `camera` of `cameras`.
-  void begin_camera(std::size_t camera, std::size_t cameras, const MeasuredCamera& measured) {
+  void begin_camera(std::size_t camera, std::size_t cameras) override {
     camera_ = camera;
     cameras_ = cameras;
+    begin_ = Clock::now();
     if (cameras > 1 && !quiet_ && !console_.shows_progress())
-      console_.print(formatted("camera %zu of %zu: ", camera + 1, cameras) +
-                     (measured.options.camera.empty() ? std::string("the first") : measured.name()) +
-                     formatted(" at %g s\n", measured.options.time_s));
+      console_.print(formatted("camera %zu of %zu: ", camera + 1, cameras) + names_[camera] + "\n");
   }
+  /// For each camera, what its line says.
+  void name_cameras(std::vector<std::string> names) { names_ = std::move(names); }
 
   void finished_point(const LedgerPoint& point, bool resumed) override {
     if (quiet_ || console_.shows_progress()) return;
@@ -105,7 +105,8 @@ class ConsoleProgress final : public CostProgress {
   std::size_t resumed_ = 0;
   std::size_t camera_ = 0;
   std::size_t cameras_ = 1;
-  Clock::time_point begin_;  ///< of the row that is measured
+  std::vector<std::string> names_;
+  Clock::time_point begin_;  ///< end of the row before: rows that are timed together end together
   TimeLeft left_;
   WorkTimes phases_;
 };
@@ -239,40 +240,55 @@ struct MeasuredCameras {
   std::vector<KnobMeaning> knobs;
 };
 
-/// Measures each camera in a session of its own, so that its rows do not depend on what was drawn before.
-Result<MeasuredCameras> measure_cameras(const Options& options, const std::vector<std::string>& chosen,
-                                        const CommandContext& context, ConsoleProgress& progress) {
-  MeasuredCameras measured;
-  std::vector<Ledger> ledgers;
+/// A camera and the session that draws it. Sessions stay open until combinations are measured in all cameras.
+struct OpenedCamera {
+  MeasuredCamera camera;
+  std::unique_ptr<Session> session;
+  std::unique_ptr<SessionCosts> costs;
+};
+
+/// Opens a session for each camera, so that its rows do not depend on what was drawn before.
+Result<std::vector<OpenedCamera>> open_cameras(const Options& options, const CommandContext& context) {
+  std::vector<OpenedCamera> opened;
   std::vector<MeasuredCamera> cameras = {{.options = options}};
   for (std::size_t i = 0; i < cameras.size(); ++i) {
-    auto opened = open_session(cameras[i].options, context.log);
-    if (!opened) return opened.error();
-    Session& session = **opened;
+    auto session = open_session(cameras[i].options, context.log);
+    if (!session) return session.error();
     if (i == 0) {
-      auto all = measured_cameras(options, session);
+      auto all = measured_cameras(options, **session);
       if (!all) return all.error();
       cameras = std::move(all).value();
-      for (const Knob& knob : session.renderer->knobs().knobs())
-        measured.knobs.push_back({knob.name, knob.meaning, value_text(knob, knob.default_number)});
+      opened.reserve(cameras.size());  // costs keep references to the options
     }
-    if (cameras.size() > 1 && options.points.value_or(0) > 0)
-      return Error{ErrorKind::usage, "--points measures combinations in one camera and at one time"};
-    GLOAM_TRY(place_camera(cameras[i], session));
-    Options& own = cameras[i].options;
-    if (cameras.size() > 1) own.points = 0;
-    GLOAM_TRY(ensure_baked(session, own, context.log, &context.console));
-    SessionCosts costs(session, own);
-    progress.begin_camera(i, cameras.size(), cameras[i]);
-    CostRequest request = make_request(session, own, chosen);
-    request.header.camera = cameras[i].name();
-    request.header.seconds /= static_cast<double>(cameras.size());
-    auto ledger = measure_costs(request, costs, progress);
-    if (!ledger) return ledger.error();
-    GLOAM_TRY(session.check_validation());
-    ledgers.push_back(std::move(ledger).value());
+    OpenedCamera& own = opened.emplace_back(OpenedCamera{cameras[i], std::move(session).value(), nullptr});
+    GLOAM_TRY(place_camera(own.camera, *own.session));
+    GLOAM_TRY(ensure_baked(*own.session, own.camera.options, context.log, &context.console));
+    own.costs = std::make_unique<SessionCosts>(*own.session, own.camera.options);
   }
-  measured.ledger = worst_of_cameras(std::move(ledgers));
+  return opened;
+}
+
+Result<MeasuredCameras> measure_cameras(const Options& options, const std::vector<std::string>& chosen,
+                                        const CommandContext& context, ConsoleProgress& progress) {
+  auto opened = open_cameras(options, context);
+  if (!opened) return opened.error();
+  MeasuredCameras measured;
+  std::vector<CostCamera> cameras;
+  std::vector<std::string> names;
+  for (const OpenedCamera& own : *opened) {
+    CostCamera& camera =
+        cameras.emplace_back(CostCamera{make_request(*own.session, own.camera.options, chosen), own.costs.get()});
+    camera.request.header.camera = own.camera.name();
+    names.push_back((own.camera.options.camera.empty() ? std::string("the first") : own.camera.name()) +
+                    formatted(" at %g s", own.camera.options.time_s));
+  }
+  for (const Knob& knob : opened->front().session->renderer->knobs().knobs())
+    measured.knobs.push_back({knob.name, knob.meaning, value_text(knob, knob.default_number)});
+  progress.name_cameras(std::move(names));
+  auto ledger = measure_costs(cameras, progress);
+  if (!ledger) return ledger.error();
+  for (const OpenedCamera& own : *opened) GLOAM_TRY(own.session->check_validation());
+  measured.ledger = std::move(ledger).value();
   return measured;
 }
 

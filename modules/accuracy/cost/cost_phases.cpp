@@ -7,7 +7,7 @@ namespace gloam {
 std::string_view name_of(CostPhase phase) {
   switch (phase) {
     case CostPhase::start:
-      return "until the session had settled";
+      return "until memory had settled";
     case CostPhase::pictures:
       return "pictures";
     case CostPhase::exact:

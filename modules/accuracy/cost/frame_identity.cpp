@@ -12,7 +12,7 @@ namespace gloam {
 namespace {
 
 /// Version of metrics and protocol: rows stored under another version are measured again.
-constexpr int kMethod = 9;
+constexpr int kMethod = 10;
 
 std::string exact_text(double value) { return formatted("%.17g", value); }
 

@@ -71,7 +71,7 @@ std::string KnobMeasurement::identity(const std::string& value) const {
   return frame_identity(value) + protocol_identity(request_);
 }
 
-Result<TimedRow> KnobMeasurement::measure(const std::string& value) {
+Result<KnobMeasurement::Measured> KnobMeasurement::measure(const std::string& value) {
   TimedRow measured = {.row = {.knob = knob_.name, .value = value, .is_default = value == default_}};
   LedgerRow& row = measured.row;
   {
@@ -80,15 +80,14 @@ Result<TimedRow> KnobMeasurement::measure(const std::string& value) {
     GLOAM_TRY(whole_.prepare(progress_));
   }
   GLOAM_TRY(judge(value, row));
-  const auto idle = is_idle(row);
-  if (!idle) return idle.error();
-  if (!row.is_default && !*idle) GLOAM_TRY(time(measured));
   progress_.phase(CostPhase::memory);
   GLOAM_TRY(set(value));
   const auto bytes = settings_.gpu_bytes_now();
   if (!bytes) return bytes.error();
   row.gpu_bytes = *bytes;
-  return measured;
+  const auto idle = is_idle(row);
+  if (!idle) return idle.error();
+  return Measured{std::move(measured), !row.is_default && !*idle};
 }
 
 Result<bool> KnobMeasurement::is_idle(LedgerRow& row) {
@@ -103,12 +102,17 @@ Result<bool> KnobMeasurement::is_idle(LedgerRow& row) {
   return row.picture == standard->hash;
 }
 
-Status KnobMeasurement::time(TimedRow& measured) {
-  auto times = time(measured.row.value);
+Status KnobMeasurement::time(std::span<TimedRow* const> rows) {
+  std::vector<std::string> values;
+  for (const TimedRow* row : rows) values.push_back(row->row.value);
+  auto times = time(values);
   if (!times) return times.error();
-  set_times(summarize_times(*times, knob_.module), measured.row);
-  measured.row.pairs = static_cast<std::uint32_t>(times->candidate.size());
-  measured.standard = std::move(times->standard);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    set_times(summarize_times((*times)[i], knob_.module), rows[i]->row);
+    rows[i]->row.pairs = static_cast<std::uint32_t>((*times)[i].candidate.size());
+  }
+  const auto frames = [](const AlternatingTimes& own) { return own.standard.size(); };
+  rows.front()->standard = std::move(std::ranges::max_element(*times, {}, frames)->standard);
   return {};
 }
 
@@ -324,20 +328,20 @@ Result<JudgedReference> KnobMeasurement::compute(const FramePictures& frame) {
   return reference;
 }
 
-Result<AlternatingTimes> KnobMeasurement::time(const std::string& value) {
+Result<std::vector<AlternatingTimes>> KnobMeasurement::time(const std::vector<std::string>& values) {
   progress_.phase(CostPhase::timing);
   std::int32_t index = 0;  // time goes on, so that frames include the work of simulations
   const auto run = [&](TimedSide side) -> Result<FrameCost> {
-    GLOAM_TRY(set(side == TimedSide::standard ? default_ : value));
+    GLOAM_TRY(set(side == kStandardSide ? default_ : values[side - 1]));
     return subject_.draw(index++);
   };
-  return time_in_plan(request_.header, plan_, run);
+  return time_in_plan(request_.header, plan_, values.size(), run);
 }
 
 Result<std::vector<FrameCost>> KnobMeasurement::time_default() {
-  auto times = time(default_);
+  auto times = time(std::vector<std::string>{default_});
   if (!times) return times.error();
-  return std::move(times->standard);
+  return std::move(times->front().standard);
 }
 
 }  // namespace gloam

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,7 +32,14 @@ class KnobMeasurement {
 
   /// Everything that a row of this value depends on, in one line.
   [[nodiscard]] std::string identity(const std::string& value) const;
-  [[nodiscard]] Result<TimedRow> measure(const std::string& value);
+  struct Measured {
+    TimedRow row;
+    bool needs_times = false;
+  };
+  /// Errors, pictures and memory of a value. Rows that differ from the default's still need their times.
+  [[nodiscard]] Result<Measured> measure(const std::string& value);
+  /// Times rows beside the default, all together: 1 to kMostCandidates. The frames of the default go to one of them.
+  [[nodiscard]] Status time(std::span<TimedRow* const> rows);
   /// Times the default against itself.
   [[nodiscard]] Result<std::vector<FrameCost>> time_default();
   /// Whether the user's own value of the knob is the default, so that frames of its default are the user's frames.
@@ -74,8 +82,7 @@ class KnobMeasurement {
   /// Whether it is known why the knob changes nothing, and the row's picture is that of the default. Sets
   /// row.no_effect_reason of the default.
   [[nodiscard]] Result<bool> is_idle(LedgerRow& row);
-  [[nodiscard]] Status time(TimedRow& measured);
-  [[nodiscard]] Result<AlternatingTimes> time(const std::string& value);
+  [[nodiscard]] Result<std::vector<AlternatingTimes>> time(const std::vector<std::string>& values);
 
   const CostRequest& request_;
   CostSubject& subject_;

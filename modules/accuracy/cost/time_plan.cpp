@@ -23,10 +23,10 @@ void TimePlan::begin_row(std::size_t left, std::size_t timed) {
   pairs_s_ = 0.0;
 }
 
-std::function<bool()> TimePlan::begin_timing() {
+std::function<bool()> TimePlan::begin_timing(std::size_t rows) {
   timing_s_ = clock_();
   if (total_s_ <= 0.0) return nullptr;
-  return [this, end_s = timing_s_ + share_s()] { return clock_() >= end_s; };
+  return [this, end_s = timing_s_ + static_cast<double>(rows) * share_s()] { return clock_() >= end_s; };
 }
 
 void TimePlan::end_timing() { pairs_s_ = clock_() - timing_s_; }

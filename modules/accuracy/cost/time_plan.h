@@ -18,15 +18,15 @@ class TimePlan {
   /// Before a row is measured. left: rows and points that are not measured yet, with this one; of them, `timed` get
   /// pairs of frames.
   void begin_row(std::size_t left, std::size_t timed);
-  /// Pairs of frames are drawn from now on. The function tells whether the row's share is spent; it is null without a
-  /// limit.
-  [[nodiscard]] std::function<bool()> begin_timing();
+  /// Pairs of frames of `rows` rows are drawn from now on. The function tells whether their share is spent; it is null
+  /// without a limit.
+  [[nodiscard]] std::function<bool()> begin_timing(std::size_t rows);
   void end_timing();
-  /// The row is measured.
+  /// The row is measured, but for pairs that are drawn after it.
   void end_row();
 
  private:
-  /// Seconds for pairs of frames of the row that began last.
+  /// Seconds for pairs of frames of one row.
   [[nodiscard]] double share_s() const;
 
   double total_s_ = 0.0;

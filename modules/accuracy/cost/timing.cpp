@@ -3,6 +3,8 @@
 #include "modules/accuracy/cost/timing.h"
 
 #include <algorithm>
+#include <optional>
+#include <span>
 #include <utility>
 
 #include "engine/core/assert.h"
@@ -15,11 +17,18 @@ Status run_frames(const RunFrame& run, TimedSide side, std::uint32_t count) {
   return {};
 }
 
-Status measure_frames(const RunFrame& run, TimedSide side, std::uint32_t count, AlternatingTimes& times) {
+/// Measures one side in its turn, and puts its frames into the times of the candidates that they belong to.
+Status measure_side(const RunFrame& run, TimedSide side, std::uint32_t count, std::span<const TimedSide> order,
+                    std::vector<AlternatingTimes>& times) {
   for (std::uint32_t frame = 0; frame < count; ++frame) {
     auto cost = run(side);
     if (!cost) return cost.error();
-    (side == TimedSide::standard ? times.standard : times.candidate).push_back(std::move(cost).value());
+    if (side != kStandardSide) {
+      times[side - 1].candidate.push_back(std::move(cost).value());
+      continue;
+    }
+    for (const TimedSide candidate : order)
+      if (candidate != kStandardSide) times[candidate - 1].standard.push_back(*cost);
   }
   return {};
 }
@@ -69,29 +78,36 @@ double median_of(const std::vector<FrameCost>& costs, Member&& member) {
 
 }  // namespace
 
-Result<AlternatingTimes> time_alternating(const TimingPlan& plan, const RunFrame& run) {
+Result<std::vector<AlternatingTimes>> time_alternating(const TimingPlan& plan, std::size_t candidates,
+                                                       const RunFrame& run) {
   GLOAM_ASSERT(plan.most_pairs > 0, "times are of at least one frame");
-  AlternatingTimes times;
-  for (const TimedSide side : {TimedSide::standard, TimedSide::candidate})
-    GLOAM_TRY(run_frames(run, side, plan.first_warm_up));
-  // Pairs begin with the side that the last ones ended with: one change of side, and one warm-up.
-  TimedSide first = TimedSide::candidate, second = TimedSide::standard;
-  do {
-    const auto done = static_cast<std::uint32_t>(times.candidate.size());
+  GLOAM_ASSERT(candidates > 0 && candidates <= kMostCandidates, "the default has a candidate on one side or on both");
+  std::vector<AlternatingTimes> times(candidates);
+  std::vector<TimedSide> order = {1, kStandardSide};
+  if (candidates == 2) order.push_back(2);
+  std::optional<TimedSide> last;
+  for (std::uint32_t done = 0; order.size() > 1;) {
     const std::uint32_t pairs = std::min(kPairsTogether, plan.most_pairs - done);
-    GLOAM_TRY(measure_frames(run, first, pairs, times));
-    GLOAM_TRY(run_frames(run, second, plan.warm_up));
-    GLOAM_TRY(measure_frames(run, second, pairs, times));
-    std::swap(first, second);
-  } while (times.candidate.size() < plan.most_pairs && !known_well(plan, times) &&
-           !(plan.out_of_time && times.candidate.size() >= kLeastPairs && plan.out_of_time()));
+    for (const TimedSide side : order) {
+      if (side != last) GLOAM_TRY(run_frames(run, side, plan.warm_up));
+      GLOAM_TRY(measure_side(run, side, pairs, order, times));
+      last = side;
+    }
+    done += pairs;
+    const bool ends = done >= plan.most_pairs || (plan.out_of_time && done >= kLeastPairs && plan.out_of_time());
+    // The next turn begins with the side that this one ended with: one change of side less.
+    std::ranges::reverse(order);
+    std::erase_if(order,
+                  [&](TimedSide side) { return side != kStandardSide && (ends || known_well(plan, times[side - 1])); });
+  }
   return times;
 }
 
-Result<AlternatingTimes> time_in_plan(const LedgerHeader& header, TimePlan& plan, const RunFrame& run) {
+Result<std::vector<AlternatingTimes>> time_in_plan(const LedgerHeader& header, TimePlan& plan, std::size_t candidates,
+                                                   const RunFrame& run) {
   TimingPlan timing = {.most_pairs = header.frames, .wanted = header.quick ? kQuickInterval : kLedgerInterval};
-  timing.out_of_time = plan.begin_timing();
-  auto times = time_alternating(timing, run);
+  timing.out_of_time = plan.begin_timing(candidates);
+  auto times = time_alternating(timing, candidates, run);
   plan.end_timing();
   return times;
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string_view>
@@ -14,19 +15,22 @@
 
 namespace gloam {
 
-enum class TimedSide { standard, candidate };
+/// The default is kStandardSide; candidates follow it.
+using TimedSide = std::size_t;
+inline constexpr TimedSide kStandardSide = 0;
+/// Candidates beside one default: each side of it takes one, so that their frames follow each other.
+inline constexpr std::size_t kMostCandidates = 2;
 
 struct TimingPlan {
   std::uint32_t most_pairs = kLedgerFrames;  ///< measured frames per side, > 0
-  /// Measuring ends when the ratio's interval reaches at most this far from the ratio, relative to it.
+  /// A candidate is measured until its ratio's interval reaches at most this far from the ratio, relative to it.
   double wanted = 0.02;
-  std::uint32_t first_warm_up = 2;  ///< unmeasured frames per side at the start: pipelines, memory, caches
-  std::uint32_t warm_up = 1;        ///< unmeasured frames after every change of side
+  std::uint32_t warm_up = 1;  ///< unmeasured frames after every change of side
   /// Whether measuring ends although the interval is wide, after at least kLeastPairs; may be null.
   std::function<bool()> out_of_time = nullptr;
 };
 
-/// Pairs that are drawn between two changes of side, each of which costs warm-up frames.
+/// Frames of a side that are measured before the next side's turn, which costs warm-up frames.
 inline constexpr std::uint32_t kPairsTogether = 2;
 /// Fewer are not asked for their interval: the range of six ratios holds their true median with 96.9 %.
 inline constexpr std::uint32_t kLeastPairs = 6;
@@ -43,12 +47,15 @@ struct AlternatingTimes {
 /// Applies the knob value of a side, if the last call was for the other side, and draws one frame.
 using RunFrame = std::function<Result<FrameCost>(TimedSide)>;
 
-/// Alternates the sides (BB AA, AA BB, BB AA …), so that a drift of the machine's speed affects both, until the ratio
-/// is known well enough.
-[[nodiscard]] Result<AlternatingTimes> time_alternating(const TimingPlan& plan, const RunFrame& run);
+/// Alternates each candidate with the default (BB AA CC, CC AA BB, BB AA CC …), so that a drift of the machine's speed
+/// affects both, until each ratio is known well enough. All sides must have been drawn before: the first warm-up makes
+/// no pipelines. candidates: 1 to kMostCandidates. One result for each.
+[[nodiscard]] Result<std::vector<AlternatingTimes>> time_alternating(const TimingPlan& plan, std::size_t candidates,
+                                                                     const RunFrame& run);
 
-/// time_alternating() as a ledger's header says, in a row's share of the ledger's time.
-[[nodiscard]] Result<AlternatingTimes> time_in_plan(const LedgerHeader& header, TimePlan& plan, const RunFrame& run);
+/// time_alternating() as a ledger's header says, in as many rows' shares of the ledger's time.
+[[nodiscard]] Result<std::vector<AlternatingTimes>> time_in_plan(const LedgerHeader& header, TimePlan& plan,
+                                                                 std::size_t candidates, const RunFrame& run);
 
 /// Of values that change nothing, one in twenty would lie outside a 95 % interval, and there are a hundred in a ledger.
 inline constexpr double kSureProbability = 0.998;

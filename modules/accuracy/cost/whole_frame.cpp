@@ -25,11 +25,13 @@ WholeFrame::WholeFrame(const CostRequest& request, CostSubject& subject, DrawnSe
 
 Status WholeFrame::prepare(CostProgress& progress) {
   if (reference_) return {};
-  progress.phase(CostPhase::start);
-  // A subject may draw many frames before its first one, until memory has settled: not with exact values, which are
-  // slow.
-  GLOAM_TRY(subject_.draw(0));
   progress.phase(CostPhase::exact);
+  GLOAM_TRY(draw_reference());
+  progress.phase(CostPhase::start);
+  return subject_.settle_memory();
+}
+
+Status WholeFrame::draw_reference() {
   KnobOverrides overrides(subject_.knobs());
   GLOAM_TRY(overrides.set(exact_settings(subject_.knobs())));
   const ReferenceCache cache(request_.folder + "/references");

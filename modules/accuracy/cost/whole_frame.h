@@ -21,14 +21,16 @@ class WholeFrame {
   /// All must outlive it. The knobs must have the user's values.
   WholeFrame(const CostRequest& request, CostSubject& subject, DrawnSettings& drawn);
 
-  /// Draws it, or reads it from the folder, unless that is done already. The knobs must have the user's values, and
-  /// have them afterwards.
+  /// Draws it, or reads it from the folder, and lets the subject's memory settle after it, unless that is done already.
+  /// The knobs must have the user's values, and have them afterwards.
   [[nodiscard]] Status prepare(CostProgress& progress);
   /// The errors of a frame. Only after prepare().
   [[nodiscard]] Result<WholeError> judge(const FramePictures& frame) const;
   [[nodiscard]] const NoisyReference& reference() const { return *reference_; }
 
  private:
+  [[nodiscard]] Status draw_reference();
+
   const CostRequest& request_;
   CostSubject& subject_;
   DrawnSettings& drawn_;

@@ -51,7 +51,7 @@ constexpr const char* kCsvColumns =
 
 constexpr const char* kPointColumns =
     "settings,default,exact,front,flip_mean,flip_p99,rmse,psnr_db,median_ms,p10_ms,p90_ms,wall_ms,cpu_ms,gpu_ms,ratio,"
-    "ratio_low,ratio_high,pairs,gpu_bytes,predicted_ms,predicted_flip,picture\n";
+    "ratio_low,ratio_high,pairs,gpu_bytes,predicted_ms,predicted_flip,picture,camera\n";
 
 std::string csv_rows(const std::vector<LedgerRow>& rows, const std::string& camera) {
   std::string text;
@@ -80,21 +80,26 @@ std::string csv_rows(const std::vector<LedgerRow>& rows, const std::string& came
   return text;
 }
 
+/// row: the point's, or that of one camera.
+std::string point_line(const LedgerPoint& point, const LedgerRow& row, const std::string& camera) {
+  CsvLine line;
+  line.text(settings_text(point.settings)).flag(row.is_default).flag(point.is_exact).flag(row.on_front);
+  line.pair(row.flip).number(row.rmse).number(row.psnr_db);
+  line.number(row.ms.median_ms).number(row.ms.p10_ms).number(row.ms.p90_ms).number(row.wall_ms);
+  line.number(row.cpu_ms).number(row.gpu_ms).number(row.ratio).number(row.ratio_low).number(row.ratio_high);
+  line.integer(row.pairs).integer(row.gpu_bytes).number(point.predicted_ms).number(point.predicted_flip);
+  line.text(row.picture).text(camera);
+  return line.finish();
+}
+
 }  // namespace
 
 std::string points_csv(const Ledger& ledger) {
   std::string text = kPointColumns;
-  for (const LedgerPoint& point : ledger.points) {
-    const LedgerRow& row = point.measured;
-    CsvLine line;
-    line.text(settings_text(point.settings)).flag(row.is_default).flag(point.is_exact).flag(row.on_front);
-    line.pair(row.flip).number(row.rmse).number(row.psnr_db);
-    line.number(row.ms.median_ms).number(row.ms.p10_ms).number(row.ms.p90_ms).number(row.wall_ms);
-    line.number(row.cpu_ms).number(row.gpu_ms).number(row.ratio).number(row.ratio_low).number(row.ratio_high);
-    line.integer(row.pairs).integer(row.gpu_bytes).number(point.predicted_ms).number(point.predicted_flip);
-    line.text(row.picture);
-    text += line.finish();
-  }
+  for (const LedgerPoint& point : ledger.points) text += point_line(point, point.measured, ledger.header.camera);
+  for (std::size_t i = 0; i < ledger.cameras.size(); ++i)
+    for (const LedgerPoint& point : ledger.points)
+      if (i < point.cameras.size()) text += point_line(point, point.cameras[i], ledger.cameras[i].camera);
   return text;
 }
 

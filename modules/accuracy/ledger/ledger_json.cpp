@@ -132,16 +132,33 @@ LedgerRow row_of(const Json& json) {
   return row;
 }
 
-/// A point is a row without a knob, whose error is that against the whole frame.
-Json json_of(const LedgerPoint& point) {
-  Json json = {{"settings", Json::object()}, {"exact", point.is_exact}};
-  for (const KnobValue& setting : point.settings) json["settings"][setting.knob] = setting.value;
-  json["predicted"] = {{"ms", point.predicted_ms}, {"flip", point.predicted_flip}};
-  const Json row = json_of(point.measured);
+/// The row of a point: it has no knob, and its error is that against the whole frame.
+Json point_row_json(const LedgerRow& measured) {
+  const Json row = json_of(measured);
+  Json json = Json::object();
   for (const char* key :
        {"default", "whole", "ms", "wall_ms", "cpu_ms", "gpu_ms", "ratio", "ratio_interval", "ratio_sure_interval",
         "pairs", "gpu_bytes", "picture", "reference_picture", "worst", "front"})
     json[key] = row.at(key);
+  return json;
+}
+
+LedgerRow point_row_of(const Json& json, const std::vector<KnobValue>& settings) {
+  Json row = json;
+  row.update({{"knob", ""}, {"value", settings_text(settings)}, {"below_noise", false}, {"wrong", ""}});
+  row["reference"] = {{"kind", kWholeFrameKind}, {"name", kWholeFrameName}, {"noise", 0.0}};
+  row["error"] = json.at("whole");
+  row["module_ms"] = {{"cpu", 0.0}, {"gpu", 0.0}};
+  return row_of(row);
+}
+
+Json json_of(const LedgerPoint& point) {
+  Json json = point_row_json(point.measured);
+  json["settings"] = Json::object();
+  for (const KnobValue& setting : point.settings) json["settings"][setting.knob] = setting.value;
+  json["exact"] = point.is_exact;
+  json["predicted"] = {{"ms", point.predicted_ms}, {"flip", point.predicted_flip}};
+  for (const LedgerRow& camera : point.cameras) json["cameras"].push_back(point_row_json(camera));
   return json;
 }
 
@@ -151,12 +168,9 @@ LedgerPoint point_of(const Json& json) {
     point.settings.push_back({knob, value.get<std::string>()});
   point.predicted_ms = json.at("predicted").at("ms").get<double>();
   point.predicted_flip = json.at("predicted").at("flip").get<double>();
-  Json row = json;
-  row.update({{"knob", ""}, {"value", settings_text(point.settings)}, {"below_noise", false}, {"wrong", ""}});
-  row["reference"] = {{"kind", kWholeFrameKind}, {"name", kWholeFrameName}, {"noise", 0.0}};
-  row["error"] = json.at("whole");
-  row["module_ms"] = {{"cpu", 0.0}, {"gpu", 0.0}};
-  point.measured = row_of(row);
+  point.measured = point_row_of(json, point.settings);
+  for (const Json& camera : json.value("cameras", Json::array()))
+    point.cameras.push_back(point_row_of(camera, point.settings));
   return point;
 }
 

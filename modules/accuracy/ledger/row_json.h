@@ -11,7 +11,8 @@
 
 namespace gloam {
 
-/// A row and the frames of the default that were timed beside it; none for a row of the default.
+/// A row and the frames of the default that were timed beside it; none for a row of the default, and none if another
+/// row that was timed with it has them.
 struct TimedRow {
   LedgerRow row;
   std::vector<FrameCost> standard;

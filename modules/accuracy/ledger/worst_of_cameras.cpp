@@ -69,4 +69,24 @@ Ledger worst_of_cameras(std::vector<Ledger> ledgers) {
   return worst;
 }
 
+LedgerRow worst_point(std::span<const LedgerRow> rows, std::span<const double> default_ms, std::size_t shown) {
+  GLOAM_ASSERT(!rows.empty() && rows.size() == default_ms.size() && shown < rows.size(), "a row for each camera");
+  if (rows.size() == 1) return rows.front();
+  std::size_t slowest = 0;
+  for (std::size_t i = 1; i < rows.size(); ++i)
+    if (default_ms[i] * rows[i].ratio > default_ms[slowest] * rows[slowest].ratio) slowest = i;
+  LedgerRow worst = rows[slowest];
+  const LedgerRow& least_right = *std::ranges::min_element(rows, less_right);
+  std::tie(worst.flip, worst.rmse, worst.rmse_p99) = std::tie(least_right.flip, least_right.rmse, least_right.rmse_p99);
+  std::tie(worst.psnr_db, worst.whole) = std::tie(least_right.psnr_db, least_right.whole);
+  for (const LedgerRow& row : rows) worst.gpu_bytes = std::max(worst.gpu_bytes, row.gpu_bytes);
+  worst.picture = rows[shown].picture;
+  worst.reference_picture = rows[shown].reference_picture;
+  worst.worst = rows[shown].worst;
+  const double scale = default_ms[slowest] / *std::ranges::max_element(default_ms);
+  for (double* ratio : {&worst.ratio, &worst.ratio_low, &worst.ratio_high, &worst.sure_low, &worst.sure_high})
+    *ratio *= scale;
+  return worst;
+}
+
 }  // namespace gloam

@@ -45,7 +45,7 @@ std::string PointMeasurement::identity() const {
 
 Status PointMeasurement::set(TimedSide side) {
   KnobRegistry& knobs = subject_.knobs();
-  for (const KnobOverride& knob : side == TimedSide::standard ? users_ : changes_)
+  for (const KnobOverride& knob : side == kStandardSide ? users_ : changes_)
     if (knobs.text(*knobs.find(knob.name)) != knob.value) GLOAM_TRY(knobs.set(knob.name, knob.value));
   return {};
 }
@@ -68,7 +68,9 @@ Result<AlternatingTimes> PointMeasurement::time() {
     GLOAM_TRY(set(side));
     return subject_.draw(index++);
   };
-  return time_in_plan(request_.header, plan_, run);
+  auto times = time_in_plan(request_.header, plan_, 1, run);
+  if (!times) return times.error();
+  return std::move(times->front());
 }
 
 Result<TimedRow> PointMeasurement::measure() {
@@ -77,16 +79,15 @@ Result<TimedRow> PointMeasurement::measure() {
   GLOAM_TRY(overrides.set(changes_));
   TimedRow measured = {.row = {.value = settings_text(settings_), .is_default = changes_.empty()}};
   GLOAM_TRY(judge(measured.row));
+  progress_.phase(CostPhase::memory);
+  const auto bytes = drawn_.gpu_bytes_now();
+  if (!bytes) return bytes.error();
+  measured.row.gpu_bytes = *bytes;
   auto times = time();
   if (!times) return times.error();
   set_times(summarize_times(*times), measured.row);
   measured.row.pairs = static_cast<std::uint32_t>(times->candidate.size());
   measured.standard = std::move(times->standard);
-  progress_.phase(CostPhase::memory);
-  GLOAM_TRY(set(TimedSide::candidate));
-  const auto bytes = drawn_.gpu_bytes_now();
-  if (!bytes) return bytes.error();
-  measured.row.gpu_bytes = *bytes;
   return measured;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "modules/accuracy/metrics/statistics.h"
@@ -25,10 +26,6 @@ Cost cost_of(const LedgerRow& row) {
   return {.ratio = row.is_default ? 1.0 : row.ratio, .squared_error = row.flip->mean * row.flip->mean};
 }
 
-bool has_pictures(const LedgerRow& row, CostProgress& progress) {
-  return std::ranges::all_of(row_pictures(row), [&](const std::string& name) { return progress.has_picture(name); });
-}
-
 ModelRatio ratio_of(std::vector<double> ratios) {
   if (ratios.empty()) return {};
   const auto far = [](double ratio) { return std::abs(std::log(ratio)); };
@@ -38,59 +35,86 @@ ModelRatio ratio_of(std::vector<double> ratios) {
 
 }  // namespace
 
-PointsRun::PointsRun(const CostRequest& request, CostSubject& subject, CostProgress& progress, WholeFrame& whole,
-                     DrawnSettings& drawn, TimePlan& plan, const std::vector<LedgerRow>& rows)
-    : request_(request),
-      subject_(subject),
+PointsRun::PointsRun(std::span<const std::unique_ptr<CameraRun>> cameras, CostProgress& progress, TimePlan& plan,
+                     std::size_t most, const std::vector<LedgerRow>& rows)
+    : cameras_(cameras),
       progress_(progress),
-      whole_(whole),
-      drawn_(drawn),
       plan_(plan),
-      model_(rows, subject.knobs()),
-      store_(request.folder + "/measurements"),
-      exact_(exact_changes(subject.knobs())) {}
+      most_(std::max<std::size_t>(most, 2)),
+      knobs_(cameras.front()->subject().knobs()),
+      model_(rows, knobs_),
+      store_(cameras.front()->request().folder + "/measurements"),
+      exact_(exact_changes(knobs_)),
+      rows_(cameras.size()) {}
 
 bool PointsRun::knows(const Changes& changes) const {
   return std::ranges::find(planned_, changes, &Planned::changes) != planned_.end();
 }
 
-Status PointsRun::add(Changes changes) {
-  if (knows(changes)) return {};
-  PointMeasurement measurement(request_, subject_, progress_, whole_, drawn_, plan_, changes);
+Status PointsRun::add_row(CameraRun& camera, const Changes& changes, KnobRows& rows, bool& resumed) {
+  PointMeasurement measurement(camera.request(), camera.subject(), progress_, camera.whole(), camera.settings(), plan_,
+                               changes);
   const std::string identity = measurement.identity();
   std::optional<TimedRow> row = store_.load(identity);
-  if (row && !has_pictures(row->row, progress_)) row.reset();
-  const bool resumed = row.has_value();
-  if (!resumed) {
-    const std::string text = settings_text(settings_with(subject_.knobs(), changes));
-    progress_.measuring_point(text, planned_.size(), std::max<std::size_t>(request_.points, 2));
-    const std::size_t left = std::max<std::size_t>(request_.points, planned_.size() + 1) - planned_.size();
-    plan_.begin_row(left, left);
+  if (!row || !has_pictures(row->row, progress_)) {
+    resumed = false;
     auto measured = measurement.measure();
-    plan_.end_row();
-    if (!measured) return Error{measured.error().kind, text + ": " + measured.error().message};
-    progress_.phase(CostPhase::other);
+    if (!measured) return measured.error();
     row = std::move(measured).value();
     GLOAM_TRY(store_.save(identity, *row));
   }
-  const Cost predicted = model_.predict(changes);
-  progress_.finished_point({.settings = settings_with(subject_.knobs(), changes),
-                            .is_exact = changes == exact_,
-                            .measured = row->row,
-                            .predicted_ms = predicted.ratio * row->row.ms.median_ms / std::max(row->row.ratio, 1e-9),
-                            .predicted_flip = predicted.error()},
-                           resumed);
-  planned_.push_back({std::move(changes), predicted});
-  rows_.rows.push_back(std::move(*row));
+  rows.rows.push_back(std::move(*row));
   return {};
+}
+
+Status PointsRun::add(Changes changes) {
+  if (knows(changes)) return {};
+  const std::vector<KnobValue> settings = settings_with(knobs_, changes);
+  const std::string text = settings_text(settings);
+  progress_.measuring_point(text, planned_.size(), most_);
+  const std::size_t left = std::max(most_, planned_.size() + 1) - planned_.size();
+  bool resumed = true;
+  for (std::size_t camera = 0; camera < cameras_.size(); ++camera) {
+    const std::size_t rows_left = left * cameras_.size() - camera;
+    plan_.begin_row(rows_left, rows_left);
+    const Status added = add_row(*cameras_[camera], changes, rows_[camera], resumed);
+    plan_.end_row();
+    if (!added.ok()) return Error{added.error().kind, text + ": " + added.error().message};
+  }
+  progress_.phase(CostPhase::other);
+  const Cost predicted = model_.predict(changes);
+  const bool is_exact = changes == exact_;
+  planned_.push_back({std::move(changes), predicted});
+  LedgerPoint point = {.settings = settings, .is_exact = is_exact, .measured = worst(planned_.size() - 1)};
+  point.predicted_ms = predicted.ratio * point.measured.ms.median_ms / std::max(point.measured.ratio, 1e-9);
+  point.predicted_flip = predicted.error();
+  progress_.finished_point(point, resumed);
+  return {};
+}
+
+std::vector<LedgerRow> PointsRun::rows_of(std::size_t index) const {
+  std::vector<LedgerRow> rows;
+  for (const KnobRows& camera : rows_) rows.push_back(camera.rows[index].row);
+  return rows;
+}
+
+LedgerRow PointsRun::worst(std::size_t index) const {
+  // All points show the camera in which the user's settings are least right, so that their pictures can be compared.
+  const std::vector<LedgerRow> users = rows_of(0);
+  std::vector<double> default_ms;
+  std::size_t shown = 0;
+  for (std::size_t camera = 0; camera < users.size(); ++camera) {
+    default_ms.push_back(users[camera].ms.median_ms);
+    if (users[camera].flip->mean > users[shown].flip->mean) shown = camera;
+  }
+  return worst_point(rows_of(index), default_ms, shown);
 }
 
 Status PointsRun::improve_front() {
   Improvements improvements;
-  while (planned_.size() < request_.points) {
+  while (planned_.size() < most_) {
     std::vector<MeasuredCost> measured;
-    for (std::size_t i = 0; i < planned_.size(); ++i)
-      measured.push_back({planned_[i].changes, cost_of(rows_.rows[i].row)});
+    for (std::size_t i = 0; i < planned_.size(); ++i) measured.push_back({planned_[i].changes, cost_of(worst(i))});
     std::optional<Changes> next = improve(model_, measured, improvements);
     if (!next) return {};
     GLOAM_TRY(add(std::move(*next)));
@@ -102,32 +126,40 @@ Status PointsRun::measure() {
   GLOAM_TRY(add({}));
   GLOAM_TRY(add(exact_));
   // Two thirds are candidates of the model. What they show directs the rest.
-  const std::size_t candidates = std::max<std::size_t>(request_.points, 2) * 2 / 3;
+  const std::size_t candidates = most_ * 2 / 3;
   const std::vector<Changes> front = model_.front();
   for (const Changes& changes : spread(model_, front, candidates))
     if (planned_.size() < candidates) GLOAM_TRY(add(changes));
   GLOAM_TRY(improve_front());
   // No neighbour promises anything: fill the gaps of the predicted front.
-  for (const Changes& changes : spread(model_, front, request_.points))
-    if (planned_.size() < request_.points) GLOAM_TRY(add(changes));
+  for (const Changes& changes : spread(model_, front, most_))
+    if (planned_.size() < most_) GLOAM_TRY(add(changes));
   return {};
 }
 
 std::vector<LedgerPoint> PointsRun::finish() const {
-  std::vector<LedgerRow> measured;
-  for (const TimedRow& row : rows_.rows) measured.push_back(row.row);
-  mark_pareto_front(measured);
+  std::vector<LedgerRow> marked;
+  for (std::size_t i = 0; i < planned_.size(); ++i) {
+    marked.push_back(worst(i));
+    // Settings are equal if their pictures are in all cameras.
+    marked.back().picture.clear();
+    for (const LedgerRow& row : rows_of(i)) marked.back().picture += row.picture + " ";
+  }
+  mark_pareto_front(marked);
   double users_ms = 0.0;
-  for (const LedgerRow& row : measured)
+  for (const LedgerRow& row : marked)
     if (row.is_default) users_ms = row.ms.median_ms;
   std::vector<LedgerPoint> points;
-  for (std::size_t i = 0; i < measured.size(); ++i) {
-    points.push_back({.settings = settings_with(subject_.knobs(), planned_[i].changes),
-                      .is_exact = planned_[i].changes == exact_,
-                      .measured = std::move(measured[i]),
-                      .predicted_ms = planned_[i].predicted.ratio * users_ms,
-                      .predicted_flip = planned_[i].predicted.error()});
-    points.back().measured.no_effect = false;  // said of values, not of combinations
+  for (std::size_t i = 0; i < marked.size(); ++i) {
+    LedgerPoint& point = points.emplace_back();
+    point.settings = settings_with(knobs_, planned_[i].changes);
+    point.is_exact = planned_[i].changes == exact_;
+    point.measured = worst(i);
+    point.measured.on_front = marked[i].on_front;
+    point.measured.no_effect = false;  // said of values, not of combinations
+    point.predicted_ms = planned_[i].predicted.ratio * users_ms;
+    point.predicted_flip = planned_[i].predicted.error();
+    if (cameras_.size() > 1) point.cameras = rows_of(i);
   }
   std::ranges::stable_sort(points, {}, [](const LedgerPoint& point) { return point.measured.ms.median_ms; });
   return points;

@@ -50,19 +50,19 @@ std::vector<MeasureInfo> SessionCosts::measures() const {
   return all;
 }
 
-Status SessionCosts::settle_session() {
-  settled_ = true;
-  constexpr std::int32_t kFrames = 130;  // twice the frames after which the frame graph frees unused memory
+Status SessionCosts::settle_memory() {
+  constexpr std::int32_t kFrames = 130;  // more than kFramesUntilRelease
   for (std::int32_t index = 0; index < kFrames; ++index) GLOAM_TRY(draw(index));
   return {};
 }
 
 Result<FrameCost> SessionCosts::draw(std::int32_t index) {
-  if (!settled_) GLOAM_TRY(settle_session());
   session_.set_clock(options_.time_s + index * options_.dt_s, options_.dt_s);
   const double scale = view_scale(knobs());
   request_.settings.width = scaled_size(options_.width, scale);
   request_.settings.height = scaled_size(options_.height, scale);
+  // What frames keep from those before them must not be of another value of a knob.
+  request_.settings.camera_cut = index != index_ && index != index_ + 1;
   const double begin_ms = processor_time_ms();
   const auto sample = session_.render_frame(request_);
   if (!sample) return sample.error();
@@ -74,12 +74,12 @@ Result<FrameCost> SessionCosts::draw(std::int32_t index) {
 }
 
 Result<std::uint64_t> SessionCosts::gpu_bytes() {
-  // A frame at the same moment as the one before draws no shadow maps anew, so it has another plan. Memory must not
-  // depend on which of the two was drawn last.
-  for (int frame = 0; frame < 2; ++frame) GLOAM_TRY(draw(index_));
+  // Time goes on: a frame at the same moment as the one before draws no shadow maps anew, so it has another plan, and
+  // memory must not depend on that.
+  GLOAM_TRY(draw(index_ + 1));
   session_.renderer->free_idle_memory();
   // The device frees memory only after the frames that may still use it have completed.
-  for (int frame = 0; frame < 3; ++frame) GLOAM_TRY(draw(index_));
+  for (int frame = 0; frame < 3; ++frame) GLOAM_TRY(draw(index_ + 1));
   std::uint64_t bytes = 0;
   for (const ModuleState& module : session_.renderer->report().modules) bytes += module.gpu_bytes;
   return bytes;

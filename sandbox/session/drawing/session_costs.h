@@ -23,6 +23,7 @@ class SessionCosts final : public CostSubject {
   [[nodiscard]] std::vector<ReferenceInfo> references() const override;
   [[nodiscard]] std::vector<MeasureInfo> measures() const override;
   [[nodiscard]] Result<FrameCost> draw(std::int32_t index) override;
+  [[nodiscard]] Status settle_memory() override;
   [[nodiscard]] Result<std::uint64_t> gpu_bytes() override;
   [[nodiscard]] FrameCounters counters() override { return session_.renderer->report().counters; }
   [[nodiscard]] Result<FramePictures> read() override;
@@ -33,10 +34,6 @@ class SessionCosts final : public CostSubject {
   [[nodiscard]] std::string no_effect_reason(const Knob& knob) override;
 
  private:
-  /// Draws frames as the timing of a row does, until what a session's first frames need is freed. Without that the
-  /// first rows have more memory than later rows of the same settings.
-  [[nodiscard]] Status settle_session();
-
   /// The pictures of the last frame as they were drawn: with views.scale, smaller than the full size.
   [[nodiscard]] Result<FramePictures> read_drawn();
   [[nodiscard]] FramePictures full_size(const FramePictures& pictures) const;
@@ -52,7 +49,6 @@ class SessionCosts final : public CostSubject {
   ViewRequest request_;
   std::unique_ptr<ReferenceStore> store_;
   std::int32_t index_ = 0;  ///< index of the last frame
-  bool settled_ = false;    ///< memory that only a session's first frames need is free
 };
 
 }  // namespace gloam

@@ -58,6 +58,10 @@ class FakeSubject final : public CostSubject {
     const double gpu_ms = knobs_.value(kSamples) + slower_by * frames_drawn;
     return FrameCost{.cpu_ms = 1.0, .gpu_ms = gpu_ms, .modules = {{"other", 7.0, 7.0}, {"fake", 0.5, gpu_ms / 2.0}}};
   }
+  [[nodiscard]] Status settle_memory() override {
+    frames_before_settling.push_back(frames_drawn);
+    return {};
+  }
   [[nodiscard]] Result<std::uint64_t> gpu_bytes() override { return std::uint64_t{knobs_.value(kSamples)} * 100; }
   [[nodiscard]] Result<FramePictures> read() override { return pictures(brightness()); }
   [[nodiscard]] Result<FramePictures> draw_reference(const ReferenceInfo&, const FramePictures& frame,
@@ -86,6 +90,7 @@ class FakeSubject final : public CostSubject {
   }
 
   int frames_drawn = 0;
+  std::vector<int> frames_before_settling;  ///< for each call
   int counted_frames = 0;
   int references_drawn = 0;
   std::vector<std::int32_t> indices;  ///< of all drawn frames

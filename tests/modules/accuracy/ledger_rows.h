@@ -127,4 +127,17 @@ inline Ledger full_ledger() {
   return ledger;
 }
 
+/// The same of two cameras.
+inline Ledger ledger_of_two_cameras() {
+  Ledger ledger = full_ledger();
+  ledger.header.camera = "lawn,pond";
+  ledger.cameras = {{"lawn", 0.0, ledger.rows}, {"pond", 1.5, ledger.rows}};
+  for (LedgerPoint& point : ledger.points) {
+    point.cameras = {point.measured, point.measured};
+    point.cameras[1].ms.median_ms *= 0.5;
+    point.cameras[1].picture = "of the pond";
+  }
+  return ledger;
+}
+
 }  // namespace gloam::test

@@ -200,6 +200,29 @@ TEST(points_csv, has_a_line_a_point) {
   }
 }
 
+TEST(points_csv, has_the_points_of_each_camera_after_the_worst) {
+  const Ledger ledger = test::ledger_of_two_cameras();
+  const auto lines = csv_cells(points_csv(ledger));
+  const std::size_t points = ledger.points.size();
+  ASSERT_EQ(lines.size(), 3 * points + 1);
+  EXPECT_EQ(lines[0].back(), "camera");
+  for (std::size_t i = 0; i < points; ++i) {
+    EXPECT_EQ(lines[1 + i].back(), "lawn,pond");
+    EXPECT_EQ(lines[1 + points + i].back(), "lawn");
+    EXPECT_EQ(lines[1 + 2 * points + i].back(), "pond");
+    EXPECT_EQ(lines[1 + 2 * points + i][lines[0].size() - 2], "of the pond");
+    EXPECT_EQ(lines[1 + 2 * points + i][0], lines[1 + i][0]);
+  }
+}
+
+TEST(ledger_json, keeps_the_points_of_each_camera) {
+  const Ledger ledger = test::ledger_of_two_cameras();
+  const auto read = parse_ledger_json(ledger_json(ledger));
+  ASSERT_TRUE(read.ok()) << read.error().message;
+  EXPECT_EQ(read->points, ledger.points);
+  EXPECT_EQ(read->cameras, ledger.cameras);
+}
+
 TEST(settings_text, are_assignments_and_a_config) {
   const std::vector<KnobValue> settings = {{"a.b", "c"}, {"d.e", "\"0.5\""}};
   EXPECT_EQ(settings_text(settings), "a.b=c d.e=\"0.5\"");

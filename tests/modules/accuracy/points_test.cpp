@@ -67,7 +67,7 @@ class InteractingSubject final : public CostSubject {
   [[nodiscard]] std::string no_effect_reason(const Knob&) override { return {}; }
 
   [[nodiscard]] double gpu_ms() const {
-    const double steps = knobs_.value(kSteps);
+    const double steps = steps_ms * knobs_.value(kSteps);
     return steps + (knobs_.value(kGlow) ? 2.0 + knobs_.value(kRays) * (1.0 + 0.1 * steps) : 0.0);
   }
   [[nodiscard]] double brightness() const {
@@ -77,6 +77,7 @@ class InteractingSubject final : public CostSubject {
 
   int frames_drawn = 0;
   int fail_after = 0;
+  double steps_ms = 1.0;  ///< of a step
 
  private:
   KnobRegistry knobs_;
@@ -241,6 +242,42 @@ TEST_F(Points, go_on_where_they_were_cut_off) {
   EXPECT_GT(progress_.found, 0);
   EXPECT_GT(progress_.measured, 0);
   EXPECT_EQ(resumed.points, whole.points);
+}
+
+/// In the second camera, steps take four times as long.
+TEST_F(Points, of_several_cameras_have_the_time_of_the_heaviest) {
+  InteractingSubject heavy;
+  heavy.steps_ms = 4.0;
+  std::vector<CostCamera> cameras = {{request_, &subject_}, {request_, &heavy}};
+  cameras[0].request.header.camera = "light";
+  cameras[1].request.header.camera = "heavy";
+  const auto ledger = measure_costs(cameras, progress_);
+  ASSERT_TRUE(ledger.ok()) << ledger.error().message;
+  EXPECT_EQ(ledger->header.camera, "light,heavy");
+  EXPECT_EQ(progress_.measured, static_cast<int>(ledger->points.size())) << "a combination is one, in all cameras";
+  EXPECT_GT(ledger->points.size(), 8u);
+  const LedgerPoint* standard = default_of(*ledger);
+  ASSERT_NE(standard, nullptr);
+  for (const LedgerPoint& point : ledger->points) {
+    ASSERT_EQ(point.cameras.size(), 2u);
+    double slowest_ms = 0.0, greatest = 0.0;
+    for (const LedgerRow& row : point.cameras) {
+      slowest_ms = std::max(slowest_ms, row.ms.median_ms);
+      greatest = std::max(greatest, row.flip->mean);
+    }
+    EXPECT_EQ(point.measured.ms.median_ms, slowest_ms);
+    EXPECT_NEAR(point.measured.ratio, slowest_ms / standard->measured.ms.median_ms, 1e-9);
+    EXPECT_LE(point.measured.ratio_low, point.measured.ratio);
+    EXPECT_GE(point.measured.ratio_high, point.measured.ratio);
+    EXPECT_EQ(point.measured.flip->mean, greatest);
+  }
+  EXPECT_EQ(subject_.knobs().value(kSteps), 4u);
+  EXPECT_EQ(heavy.knobs().value(kSteps), 4u);
+  progress_ = {};
+  const auto again = measure_costs(cameras, progress_);
+  ASSERT_TRUE(again.ok());
+  EXPECT_EQ(progress_.measured, 0);
+  EXPECT_EQ(again->points, ledger->points);
 }
 
 TEST_F(Points, the_console_shows_the_front) {

@@ -20,7 +20,7 @@ class Rows {
     now_s += 0.5 * other_s_;
     int pairs = 0;
     if (timed) {
-      const auto spent = plan_.begin_timing();
+      const auto spent = plan_.begin_timing(1);
       do now_s += pair_s_;
       while (++pairs < kMost && !(spent && pairs >= kLeast && spent()));
       plan_.end_timing();

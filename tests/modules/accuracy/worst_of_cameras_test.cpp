@@ -90,5 +90,35 @@ TEST(WorstOfCameras, its_texts_have_every_camera) {
   EXPECT_THAT(csv, HasSubstr(",far\n"));
 }
 
+TEST(WorstPoint, has_the_time_of_the_slowest_camera_and_the_greatest_error) {
+  // Frames of the default: 40 ms in the first camera, 10 in the second, where the value is dearer than the default.
+  std::vector<LedgerRow> rows = {row("a", 0.25, 0.5, "first"), row("a", 0.5, 1.5, "second")};
+  rows[0].ms.median_ms = 20.0;
+  rows[0].ratio_low = 0.4;
+  rows[1].ms.median_ms = 15.0;
+  const double default_ms[] = {40.0, 10.0};
+  LedgerRow worst = worst_point(rows, default_ms, 0);
+  EXPECT_EQ(worst.ms.median_ms, 20.0);
+  EXPECT_EQ(worst.ratio, 0.5);
+  EXPECT_EQ(worst.ratio_low, 0.4);
+  EXPECT_EQ(worst.flip->mean, 0.5);
+  EXPECT_EQ(worst.gpu_bytes, 1500u);
+  EXPECT_EQ(worst.picture, "first");
+  EXPECT_EQ(worst_point(rows, default_ms, 1).picture, "second");
+  // Much faster in the first: now the second is the slowest. Its ratio is to the default's 40 ms.
+  rows[0].ratio = 0.125;
+  rows[0].ms.median_ms = 5.0;
+  worst = worst_point(rows, default_ms, 0);
+  EXPECT_EQ(worst.ms.median_ms, 15.0);
+  EXPECT_EQ(worst.ratio, 0.375);
+  EXPECT_EQ(worst.ratio_high, 0.375);
+}
+
+TEST(WorstPoint, of_one_camera_is_its_row) {
+  const std::vector<LedgerRow> rows = {row("a", 0.25, 0.5, "p")};
+  const double default_ms[] = {40.0};
+  EXPECT_EQ(worst_point(rows, default_ms, 0), rows.front());
+}
+
 }  // namespace
 }  // namespace gloam
