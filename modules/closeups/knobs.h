@@ -28,7 +28,7 @@ inline constexpr NumberKnob kCloseupTexelsPerPixel{
     .default_value = 1.0,
     .unit = "texels a pixel",
     .ledger_values = {0.25, 0.5, 1.0, 2.0, 4.0},
-    .only_with = "shadows.mode=deferred"};
+    .only_with = "closeups.max_pairs>0"};
 inline constexpr ChoiceKnob<bool> kCloseupSingleFetches{
     .name = "closeups.filter",
     .meaning =
@@ -36,20 +36,20 @@ inline constexpr ChoiceKnob<bool> kCloseupSingleFetches{
         "(pcss), which are more exact in wide penumbrae of small subjects",
     .choices = {{"chs", false}, {"pcss", true}},
     .default_value = true,
-    .only_with = "shadows.filter=chs"};
+    .only_with = "shadows.filter=chs and closeups.max_pairs>0"};
 inline constexpr ChoiceKnob<std::uint32_t> kCloseupBatch{
     .name = "closeups.batch",
     .meaning = "close-up pairs that are drawn into the close-up map together",
     .choices = {{"1", 1}, {"2", 2}, {"4", 4}},
     .default_value = 1,
-    .only_with = "shadows.mode=deferred"};
+    .only_with = "closeups.max_pairs>0"};
 inline constexpr ChoiceKnob<bool> kCloseupDrawsStandard{
     .name = "closeups.standard",
     .meaning =
         "how close-up subjects shadow forward-lit surfaces: their close-up maps are copied into the light's "
         "standard maps (transfer), or they are drawn into these as well (draw)",
     .choices = {{"transfer", false}, {"draw", true}},
-    .only_with = "shadows.mode=deferred"};
+    .only_with = "closeups.max_pairs>0"};
 
 /// Values of this module's knobs.
 struct CloseupKnobs {

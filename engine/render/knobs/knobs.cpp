@@ -21,6 +21,13 @@ std::string number_text(double value) {
   return std::string(buffer, end);
 }
 
+/// "shadows.filter=pcss or chs".
+std::string with_or(std::string_view setting) {
+  std::string text(setting);
+  for (std::size_t bar = text.find('|'); bar != std::string::npos; bar = text.find('|')) text.replace(bar, 1, " or ");
+  return text;
+}
+
 std::string valid_values(const Knob& knob) {
   if (knob.type != Knob::Type::choice) {
     const std::string kind = knob.type == Knob::Type::integer ? "an integer" : "a number";
@@ -130,22 +137,31 @@ void KnobRegistry::store(std::string_view name, Knob::Type type, double value) {
   ++version_;
 }
 
-std::string KnobRegistry::unmet_setting(const Knob& knob) const {
-  const Knob* asked = &knob;
-  for (std::size_t chain = 0; chain < knobs_.size() && !asked->only_with.empty(); ++chain) {
-    const std::size_t equals = asked->only_with.find('=');
-    const Knob* other = find(std::string_view(asked->only_with).substr(0, equals));
-    if (other == nullptr) return {};  // a host leaves its module out
-    const std::string wanted = "|" + asked->only_with.substr(equals + 1) + "|";
-    if (wanted.find("|" + text(*other) + "|") == std::string::npos) {
-      std::string setting = asked->only_with;
-      for (std::size_t bar = setting.find('|'); bar != std::string::npos; bar = setting.find('|'))
-        setting.replace(bar, 1, " or ");
-      return "only with " + setting + ", which is " + text(*other);
-    }
-    asked = other;
+std::string KnobRegistry::unmet_setting(const Knob& knob) const { return unmet_setting(knob, knobs_.size()); }
+
+std::string KnobRegistry::unmet_setting(const Knob& knob, std::size_t depth) const {
+  constexpr std::string_view kAnd = " and ";
+  // Settings that need each other end.
+  std::string_view left = depth > 0 ? std::string_view(knob.only_with) : std::string_view();
+  while (!left.empty()) {
+    const std::size_t end = std::min(left.find(kAnd), left.size());
+    const std::string_view setting = left.substr(0, end);
+    left.remove_prefix(std::min(end + kAnd.size(), left.size()));
+    const Knob* other = find(setting.substr(0, setting.find_first_of("=>")));
+    if (other == nullptr) continue;  // a host leaves its module out
+    if (!is_met(setting, *other)) return "only with " + with_or(setting) + ", which is " + text(*other);
+    if (std::string unmet = unmet_setting(*other, depth - 1); !unmet.empty()) return unmet;
   }
   return {};
+}
+
+bool KnobRegistry::is_met(std::string_view setting, const Knob& knob) const {
+  const std::size_t sign = setting.find_first_of("=>");
+  const std::string_view wanted = setting.substr(sign + 1);
+  if (setting[sign] == '=') return ("|" + std::string(wanted) + "|").find("|" + text(knob) + "|") != std::string::npos;
+  double least = 0.0;
+  std::from_chars(wanted.data(), wanted.data() + wanted.size(), least);
+  return number(knob) > least;
 }
 
 double KnobRegistry::number(const Knob& knob) const { return values_[index_of(knob)]; }

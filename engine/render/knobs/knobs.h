@@ -35,8 +35,8 @@ struct Knob {
   std::string taste;
   /// The values are methods for one result: a picture that differs from the reference in one bit is wrong.
   bool same_picture = false;
-  /// Setting of another knob without which this one changes nothing: "shadows.mode=deferred", or with alternatives,
-  /// "shadows.filter=pcss|chs". Empty: none.
+  /// Setting of another knob without which this one changes nothing: "shadows.mode=deferred", with alternatives
+  /// "shadows.filter=pcss|chs", of a number "closeups.max_pairs>0". " and " joins several. Empty: none.
   std::string only_with;
   /// The whole-frame reference keeps the user's value, and combinations of values do not vary it. Every taste is one.
   bool is_look = false;
@@ -93,13 +93,17 @@ class KnobRegistry {
   [[nodiscard]] const std::vector<Knob>& knobs() const { return knobs_; }
   /// For names from users; null if the knob is not declared here.
   [[nodiscard]] const Knob* find(std::string_view name) const;
-  /// Knob::only_with of this knob or, if that is met, of the knob that it names, and so on: the first setting that is
+  /// Knob::only_with of this knob or, if that is met, of the knobs that it names, and so on: the first setting that is
   /// not met, and the current value: "only with shadows.mode=deferred, which is off". Empty: all are met.
   [[nodiscard]] std::string unmet_setting(const Knob& knob) const;
   /// Incremented whenever a value is set.
   [[nodiscard]] std::uint64_t version() const { return version_; }
 
  private:
+  /// depth: how many knobs may need one another.
+  [[nodiscard]] std::string unmet_setting(const Knob& knob, std::size_t depth) const;
+  /// Whether the knob has a value of one setting of Knob::only_with.
+  [[nodiscard]] bool is_met(std::string_view setting, const Knob& knob) const;
   [[nodiscard]] std::size_t index_of(const Knob& knob) const;
   [[nodiscard]] std::size_t index_of(std::string_view name, Knob::Type type) const;
   [[nodiscard]] double stored(std::string_view name, Knob::Type type) const { return values_[index_of(name, type)]; }

@@ -127,20 +127,30 @@ TEST(KnobReferences, the_settings_of_measures_exist) {
   }
 }
 
+/// One setting of Knob::only_with: NAME=A|B, or NAME>NUMBER.
+void expect_setting(KnobRegistry& knobs, const std::string& owner, const std::string& setting) {
+  const std::size_t sign = setting.find_first_of("=>");
+  ASSERT_NE(sign, std::string::npos) << owner;
+  const std::string other = setting.substr(0, sign);
+  EXPECT_NE(other, owner);
+  std::string values = setting.substr(sign + 1) + "|";
+  for (std::size_t bar = values.find('|'); bar != std::string::npos; bar = values.find('|')) {
+    EXPECT_TRUE(knobs.set(other, values.substr(0, bar)).ok()) << owner << " only with " << setting;
+    values.erase(0, bar + 1);
+  }
+}
+
 TEST(KnobReferences, a_setting_that_a_knob_needs_exists) {
   Declarations all = all_declarations();
   std::size_t count = 0;
   for (const Knob& knob : all.knobs.knobs()) {
     if (knob.only_with.empty()) continue;
     ++count;
-    const std::size_t equals = knob.only_with.find('=');
-    ASSERT_NE(equals, std::string::npos) << knob.name;
-    const std::string other = knob.only_with.substr(0, equals);
-    EXPECT_NE(other, knob.name);
-    std::string values = knob.only_with.substr(equals + 1) + "|";
-    for (std::size_t bar = values.find('|'); bar != std::string::npos; bar = values.find('|')) {
-      EXPECT_TRUE(all.knobs.set(other, values.substr(0, bar)).ok()) << knob.name << " only with " << knob.only_with;
-      values.erase(0, bar + 1);
+    std::string left = knob.only_with;
+    while (!left.empty()) {
+      const std::size_t end = std::min(left.find(" and "), left.size());
+      expect_setting(all.knobs, knob.name, left.substr(0, end));
+      left.erase(0, end + std::string_view(" and ").size());
     }
   }
   EXPECT_GT(count, 20u);

@@ -149,6 +149,24 @@ TEST_F(Knobs, a_setting_that_is_not_met_is_named_with_the_current_value) {
   EXPECT_EQ(unmet("lights.width"), "only with lights.culling=tiled, which is brute") << "by way of lights.filter";
 }
 
+TEST_F(Knobs, several_settings_may_be_needed_and_numbers_above_a_limit) {
+  Knob count = number_knob("lights.count", Knob::Type::integer, 0, 8, 2);
+  count.only_with = "lights.culling=tiled";
+  Knob width = number_knob("lights.width", Knob::Type::number, 0, 1, 0.5);
+  width.only_with = "shadows.maps>8 and lights.count>0";
+  for (const Knob& knob : {count, width}) knobs_.add(knob);
+  const auto unmet = [&] { return knobs_.unmet_setting(*knobs_.find("lights.width")); };
+  ASSERT_TRUE(knobs_.set("shadows.maps", "8").ok());
+  EXPECT_EQ(unmet(), "only with shadows.maps>8, which is 8");
+  ASSERT_TRUE(knobs_.set("shadows.maps", "9").ok());
+  EXPECT_EQ(unmet(), "");
+  ASSERT_TRUE(knobs_.set("lights.count", "0").ok());
+  EXPECT_EQ(unmet(), "only with lights.count>0, which is 0");
+  ASSERT_TRUE(knobs_.set("lights.count", "1").ok());
+  ASSERT_TRUE(knobs_.set("lights.culling", "brute").ok());
+  EXPECT_EQ(unmet(), "only with lights.culling=tiled, which is brute");
+}
+
 TEST_F(Knobs, settings_that_need_each_other_end) {
   Knob one = choice_knob("a.one", {"off", "on"}, 1), two = choice_knob("a.two", {"off", "on"}, 1);
   one.only_with = "a.two=on";
