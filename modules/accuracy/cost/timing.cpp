@@ -41,9 +41,17 @@ std::vector<double> ratios_of(const AlternatingTimes& times) {
   return ratios;
 }
 
+/// Frames of one turn may be slow together. Resampling turns allows for that, but few turns give too narrow intervals;
+/// the wider one of both counts at each end.
+Interval bootstrap_interval(const std::vector<double>& ratios, double probability) {
+  const Interval pairs = median_interval(ratios, probability);
+  const Interval turns = median_interval(ratios, probability, kPairsTogether);
+  return {std::min(pairs.low, turns.low), std::max(pairs.high, turns.high)};
+}
+
 /// 95 % interval of the median.
 Interval interval_of(const std::vector<double>& ratios) {
-  if (ratios.size() >= kBootstrapPairs) return median_interval(ratios);
+  if (ratios.size() >= kBootstrapPairs) return bootstrap_interval(ratios, 0.95);
   const auto [least, most] = std::ranges::minmax_element(ratios);
   return {*least, *most};
 }
@@ -52,7 +60,7 @@ Interval interval_of(const std::vector<double>& ratios) {
 /// fewer is widened by its length on both sides.
 Interval sure_interval_of(const std::vector<double>& ratios) {
   constexpr std::size_t kSurePairs = 10;
-  if (ratios.size() >= kBootstrapPairs) return median_interval(ratios, kSureProbability);
+  if (ratios.size() >= kBootstrapPairs) return bootstrap_interval(ratios, kSureProbability);
   const Interval range = interval_of(ratios);
   const double more = ratios.size() < kSurePairs ? range.high - range.low : 0.0;
   return {std::max(range.low - more, 0.0), range.high + more};

@@ -24,15 +24,23 @@ double quantile(std::vector<double>& values, double fraction) {
   return *at + (next - *at) * weight;
 }
 
-Interval median_interval(std::span<const double> values, double probability) {
+Interval median_interval(std::span<const double> values, double probability, std::size_t block) {
   GLOAM_ASSERT(!values.empty(), "a median is of at least one value");
+  GLOAM_ASSERT(block > 0, "a block holds at least one value");
   constexpr std::size_t kResamples = 1000;
   std::mt19937 random(1);
-  std::vector<double> resample(values.size());
+  const std::size_t blocks = (values.size() + block - 1) / block;
+  std::vector<double> resample;
   std::vector<double> medians;
   medians.reserve(kResamples);
   for (std::size_t i = 0; i < kResamples; ++i) {
-    for (double& value : resample) value = values[random() % values.size()];
+    resample.clear();
+    for (std::size_t drawn = 0; drawn < blocks; ++drawn) {
+      const std::size_t begin = random() % blocks * block;
+      const std::size_t end = std::min(begin + block, values.size());
+      resample.insert(resample.end(), values.begin() + static_cast<std::ptrdiff_t>(begin),
+                      values.begin() + static_cast<std::ptrdiff_t>(end));
+    }
     medians.push_back(quantile(resample, 0.5));
   }
   const double outside = 0.5 * (1.0 - probability);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -29,7 +30,9 @@ struct Interval {
 };
 
 /// Interval of the median, by the bootstrap: the middle share, `probability`, of the medians of 1000 resamples. The
-/// same values always give the same interval. `values`: not empty.
-[[nodiscard]] Interval median_interval(std::span<const double> values, double probability = 0.95);
+/// same values always give the same interval. `values`: not empty. block: each so many values in a row are drawn
+/// together, because they were measured together and may be wrong together; at least 1.
+[[nodiscard]] Interval median_interval(std::span<const double> values, double probability = 0.95,
+                                       std::size_t block = 1);
 
 }  // namespace gloam

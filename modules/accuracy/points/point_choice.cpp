@@ -42,25 +42,37 @@ struct Segment {
   }
 };
 
+/// The area that a point would add to what the front covers, on logarithmic scales: over all times from the point's own
+/// to that of the slowest one, by how much it is more right than the front. A point near another one adds little.
+double added_area(const std::vector<const MeasuredCost*>& front, const Cost& cost) {
+  double area = 0.0;
+  for (std::size_t i = 0; i + 1 < front.size(); ++i) {
+    const double from = std::max(front[i]->cost.ratio, cost.ratio), to = front[i + 1]->cost.ratio;
+    if (to > from) area += std::log(to / from) * std::max(log_error(front[i]->cost) - log_error(cost), 0.0);
+  }
+  return area;
+}
+
 struct Proposal {
   Changes changes;
-  double above_line = 0.0;
+  double gain = 0.0;
 };
 
-/// The best neighbour of the segment's ends that lies in the segment.
+/// The neighbour of the segment's ends that lies in the segment and would add most.
 std::optional<Proposal> best_neighbour(const CostModel& model, const std::vector<MeasuredCost>& measured,
-                                       const Segment& segment) {
+                                       const std::vector<const MeasuredCost*>& front, const Segment& segment) {
   std::optional<Proposal> best;
   for (const MeasuredCost* end : {&segment.faster, &segment.slower}) {
     for (const CostModel::VariedKnob& knob : model.knobs()) {
       for (const CostModel::Option& option : knob.options) {
         const Cost cost = model.predict_from(end->cost, end->changes, knob, option);
         if (!segment.holds(cost.ratio)) continue;
-        const double above_line = segment.above_line(cost);
-        if (above_line > std::log(kMostAboveFront) || (best && above_line >= best->above_line)) continue;
+        if (segment.above_line(cost) > std::log(kMostAboveFront)) continue;
+        const double gain = added_area(front, cost);
+        if (gain <= 0.0 || (best && gain <= best->gain)) continue;
         Changes changes = model.folded(changed(end->changes, knob, option));
         if (std::ranges::find(measured, changes, &MeasuredCost::changes) != measured.end()) continue;
-        best = Proposal{std::move(changes), above_line};
+        best = Proposal{std::move(changes), gain};
       }
     }
   }
@@ -94,11 +106,11 @@ std::optional<Changes> improve(const CostModel& model, const std::vector<Measure
   std::optional<Proposal> best;
   const MeasuredCost* begin = nullptr;
   for (std::size_t i = 0; i + 1 < front.size(); ++i) {
-    std::optional<Proposal> proposal = best_neighbour(model, measured, {*front[i], *front[i + 1]});
+    std::optional<Proposal> proposal = best_neighbour(model, measured, front, {*front[i], *front[i + 1]});
     if (!proposal) continue;
-    const std::size_t improved = improvements[front[i]->changes];
-    const std::size_t least = begin != nullptr ? improvements[begin->changes] : improved;
-    if (best && (improved > least || (improved == least && proposal->above_line >= best->above_line))) continue;
+    // A prediction that did not come true leaves its segment as it was: others have their turn.
+    proposal->gain /= static_cast<double>(1 + improvements[front[i]->changes]);
+    if (best && proposal->gain <= best->gain) continue;
     best = std::move(proposal);
     begin = front[i];
   }

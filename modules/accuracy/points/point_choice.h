@@ -24,8 +24,9 @@ struct MeasuredCost {
 using Improvements = std::map<Changes, std::size_t>;
 
 /// The combination to measure next: a neighbour of the measured front, which differs from one of its points in one
-/// knob, and whose predicted error is at most 10 % above the line between the two points of the front beside it.
-/// Segments with the fewest improvements come first, then the greatest gain. None: no neighbour promises anything.
+/// knob, and whose predicted error is at most 10 % above the line between the two points of the front beside it. Of
+/// these, the one that would add the greatest area to what the front covers, on logarithmic scales: it fills the widest
+/// gap best. Each improvement of a segment makes its next one count less. None: no neighbour promises anything.
 [[nodiscard]] std::optional<Changes> improve(const CostModel& model, const std::vector<MeasuredCost>& measured,
                                              Improvements& improvements);
 

@@ -93,6 +93,7 @@ std::string knob_gain(const KnobResults& knob) {
   for (const LedgerRow* row : knob.rows)
     if (row->wrong.empty() && (cheapest == nullptr || row->ratio < cheapest->ratio)) cheapest = row;
   if (knob.standard == nullptr || cheapest == nullptr) return {};
+  if (knob.rows.size() == 1) return "<p>Only its default was measured.</p>\n";
   if (cheapest->is_default || cheapest->ratio_high >= 1.0)
     return "<p>No value is significantly cheaper than the default.</p>\n";
   return "<p>The cheapest value, <code>" + escaped(cheapest->value) + "</code>, takes " + ratio_text(*cheapest) +
@@ -112,7 +113,8 @@ std::string knob_article(const KnobResults& knob) {
                      (first.reference_noise > 0.0 ? "; its own noise is " + number_text(first.reference_noise) : "") +
                      ".") +
           "</p>\n";
-  html += "<div class=\"chart-and-table\">" + error_plot(knob) + knob_table(knob) + "</div>\n";
+  if (knob.rows.size() > 1)
+    html += "<div class=\"chart-and-table\">" + error_plot(knob) + knob_table(knob) + "</div>\n";
   return html + "</article>\n";
 }
 

@@ -1,5 +1,8 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cstddef>
+
 #include "engine/core/text/formatted.h"
 #include "modules/accuracy/report/html_text.h"
 #include "modules/accuracy/report/report_data.h"
@@ -7,6 +10,9 @@
 
 namespace gloam {
 namespace {
+
+/// Bytes of a page. Pictures for which it has no room are links.
+constexpr std::size_t kMostBytes = 2'990'000;
 
 std::string page_head(const ReportData& data) {
   // The policy forbids every request; pictures are data.
@@ -43,12 +49,17 @@ std::string page_header(const ReportData& data) {
   return html + "</header>\n";
 }
 
-/// The pictures as JSON, each once; the script sets them as sources of images.
-std::string page_pictures(const ReportData& data) {
+/// The most important pictures as JSON, each once, in at most `room` bytes; the script sets them as sources of images.
+std::string page_pictures(const ReportData& data, std::size_t room) {
   std::string html = "<script type=\"application/json\" id=\"pictures\">{";
-  for (const auto& [name, uri] : data.embedded) {
+  bool first = true;
+  for (const auto& [name, uri] : data.pictures) {
     // Names are hashes with hyphens; escaping keeps any other text from ending the element or the string.
-    html += (&name == &data.embedded.front().first ? "\n\"" : ",\n\"") + escaped(name) + "\":\"" + uri + "\"";
+    const std::string entry = (first ? "\n\"" : ",\n\"") + escaped(name) + "\":\"" + uri + "\"";
+    if (entry.size() > room) continue;
+    room -= entry.size();
+    html += entry;
+    first = false;
   }
   return html + "}</script>\n";
 }
@@ -65,9 +76,10 @@ std::string ledger_report(const Ledger& ledger, const ReportRequest& request) {
   html += cameras_section(data);
   html += table_section(data);
   html += conditions_section(data);
-  html += "</main>\n" + page_pictures(data) + "<script>\n";
-  html += kPageScript;
-  return html + "</script>\n</body>\n</html>\n";
+  html += "</main>\n";
+  const std::string rest = "<script>\n" + std::string(kPageScript) + "</script>\n</body>\n</html>\n";
+  const std::size_t used = html.size() + rest.size();
+  return html + page_pictures(data, kMostBytes - std::min(used, kMostBytes)) + rest;
 }
 
 }  // namespace gloam

@@ -12,9 +12,6 @@
 namespace gloam {
 namespace {
 
-/// Characters of all data: URIs. With the page's text, a report stays below 3 MB.
-constexpr std::size_t kEmbeddedSize = 2'600'000;
-
 std::vector<KnobResults> group_by_knob(const Ledger& ledger, const ReportRequest& request) {
   std::vector<KnobResults> knobs;
   for (const LedgerRow& row : ledger.rows) {
@@ -89,7 +86,7 @@ Savings find_savings(const std::vector<KnobResults>& knobs) {
   return savings;
 }
 
-/// Names of pictures in the order in which they are embedded as long as there is room.
+/// Names of pictures, the most important first.
 std::vector<std::string> names_by_importance(const ReportData& data) {
   std::vector<std::string> names;
   for (const KnobResults& knob : data.knobs)
@@ -109,20 +106,16 @@ std::vector<std::string> names_by_importance(const ReportData& data) {
   return names;
 }
 
-void embed_pictures(const ReportRequest& request, ReportData& data) {
+void find_pictures(const ReportRequest& request, ReportData& data) {
   if (!request.picture) return;
   std::set<std::string> done = {""};
-  std::size_t size = 0;
   for (const std::string& name : names_by_importance(data)) {
     if (!done.insert(name).second) continue;
     const std::optional<std::string> bytes = request.picture(name);
     if (!bytes) continue;
     data.linked.push_back(name);
     const std::string type = bytes->starts_with("\x89PNG") ? "image/png" : "image/jpeg";
-    std::string uri = "data:" + type + ";base64," + base64(*bytes);
-    if (size + uri.size() > kEmbeddedSize) continue;
-    size += uri.size();
-    data.embedded.emplace_back(name, std::move(uri));
+    data.pictures.emplace_back(name, "data:" + type + ";base64," + base64(*bytes));
   }
   std::ranges::sort(data.linked);
 }
@@ -139,7 +132,7 @@ ReportData report_data(const Ledger& ledger, const ReportRequest& request) {
   data.savings = find_savings(data.knobs);
   data.users = users_point(ledger);
   data.recommended = recommended_point(ledger, data.users);
-  embed_pictures(request, data);
+  find_pictures(request, data);
   return data;
 }
 

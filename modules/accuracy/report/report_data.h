@@ -45,8 +45,8 @@ struct ReportData {
   /// The fastest combination that is significantly faster than the user's and whose error is below 0.01, or no greater
   /// than that of the user's; or else below 0.03. Null: there is none.
   const LedgerPoint* recommended = nullptr;
-  /// Name and data: URI of the embedded pictures.
-  std::vector<std::pair<std::string, std::string>> embedded;
+  /// Name and data: URI of all pictures, the most important first.
+  std::vector<std::pair<std::string, std::string>> pictures;
   std::vector<std::string> linked;  ///< names of all pictures in the folder, sorted
 
   [[nodiscard]] bool has_picture(std::string_view name) const;

@@ -194,6 +194,20 @@ TEST(PointChoice, improves_between_the_points_of_the_measured_front) {
   EXPECT_TRUE(!other || *other != *next) << "nothing is measured twice";
 }
 
+TEST(PointChoice, fills_the_widest_gap_before_it_improves_a_narrow_one) {
+  std::vector<LedgerRow> rows = rows_abc();
+  rows[6] = row_of("k.c", "low", 1.3, 0.02);
+  const CostModel model(rows, knobs_abc());
+  // Between the last two, k.c=low would be far below the line; but k.a=low lies in a gap of more than a factor of two.
+  std::vector<MeasuredCost> measured = {{{{"k.a", "low"}, {"k.b", "low"}}, {.ratio = 0.4, .squared_error = 0.04}},
+                                        {{}, {.ratio = 1.0, .squared_error = 0.0009}},
+                                        {{{"k.a", "high"}}, {.ratio = 1.35, .squared_error = 0.00088}}};
+  Improvements improvements;
+  EXPECT_EQ(improve(model, measured, improvements), (Changes{{"k.a", "low"}}));
+  measured.push_back({{{"k.a", "low"}}, {.ratio = 0.8, .squared_error = 0.0025}});
+  EXPECT_EQ(improve(model, measured, improvements), (Changes{{"k.c", "low"}}));
+}
+
 TEST(PointChoice, gives_up_if_no_neighbour_is_near_the_front) {
   KnobRegistry knobs = knobs_abc();
   const CostModel model(rows_abc(), knobs);

@@ -74,11 +74,33 @@ TEST(statistics, the_interval_of_a_median_holds_the_true_median_as_often_as_it_s
   }
 }
 
+/// Two values in a row share most of their error.
+TEST(statistics, values_that_are_wrong_together_are_resampled_together) {
+  std::mt19937 random(12);
+  std::normal_distribution<double> shared(1.0, 0.1), own(0.0, 0.02);
+  constexpr int kRounds = 400;
+  int held = 0, held_alone = 0;
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<double> values;
+    for (int block = 0; block < 20; ++block) {
+      const double common = shared(random);
+      for (int i = 0; i < 2; ++i) values.push_back(common + own(random));
+    }
+    const Interval together = median_interval(values, 0.95, 2), alone = median_interval(values);
+    held += together.low <= 1.0 && 1.0 <= together.high ? 1 : 0;
+    held_alone += alone.low <= 1.0 && 1.0 <= alone.high ? 1 : 0;
+  }
+  EXPECT_GT(held, kRounds * 91 / 100);
+  EXPECT_LT(held, kRounds * 99 / 100) << "wider than need be";
+  EXPECT_LT(held_alone, kRounds * 90 / 100) << "the test can tell";
+}
+
 TEST(statistics, the_interval_of_a_median_is_of_the_values_alone) {
   const std::vector<double> values = {3.0, 1.0, 2.0, 5.0, 4.0};
   EXPECT_EQ(median_interval(values), median_interval(values));
   EXPECT_EQ(median_interval(std::vector<double>{7.0}), (Interval{7.0, 7.0}));
   EXPECT_EQ(median_interval(std::vector<double>(9, 2.5)), (Interval{2.5, 2.5}));
+  EXPECT_EQ(median_interval(std::vector<double>(9, 2.5), 0.95, 2), (Interval{2.5, 2.5})) << "the last block is short";
 }
 
 }  // namespace
