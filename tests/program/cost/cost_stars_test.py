@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: The gloam authors
 # SPDX-License-Identifier: MIT
-"""Stars and ratios of `cost` are the same whenever it is run, also beside processes that keep all cores busy. Needs a Vulkan
-device. In the short form two runs of three knobs; with GLOAM_LONG_TESTS five runs of six.
+"""Stars of `cost` are the same whenever it is run, also beside processes that keep all cores busy. Needs a Vulkan device. In
+the short form two runs of three knobs; with GLOAM_LONG_TESTS five runs of six.
 
-Ratios have 95 % intervals. Those of two runs of the same value overlap unless their difference is above 1.96 times the sum of
-both half widths, which is 2.77 standard deviations of it if they are alike: 0.6 % of the comparisons by chance. The number of
-intervals apart must be one that chance gives in 99.9 % of all tests; none may be apart by more than both widths."""
+Ratios have 95 % intervals. For two sides that are the same frame they must hold 1 as often as they say. For others the test
+prints how many pairs of runs disagree: a virtual processor's speed at different kinds of work changes from run to run, and
+no interval of one run can know that (docs/measurements.md)."""
 import itertools
 import math
 import os
@@ -14,28 +14,26 @@ import sys
 
 from program_case import LONG, ProgramCase, main
 
-APART = 0.0056  # 2 (1 - Phi(1.96 sqrt 2))
+MISSED = 0.05  # of intervals that do not hold the true ratio
 CHANCE = 0.001  # of a failure without a cause
 RUNS = 5 if LONG else 2
-# Without fog fog.radius changes nothing: both sides of its comparisons are the same frame.
-SAME = "fog.radius"
-KNOBS = (SAME, "shadows.filter", "lighting.antialiasing", *(("shadows.mode", "shadows.kernel", "lights.z_bins") if LONG else ()))
+# The lights' maps have their largest size in any case: both sides of its comparison are the same frame.
+SAME = ("shadows.texels_per_pixel", "4")
+KNOBS = (SAME[0], "shadows.filter", "lighting.antialiasing", *(("shadows.mode", "shadows.kernel", "lights.z_bins") if LONG else ()))
 
 
 def most_by_chance(comparisons):
     """The least number that a binomial count exceeds with a probability of at most CHANCE."""
     left = 1.0
     for count in range(comparisons + 1):
-        left -= math.comb(comparisons, count) * APART**count * (1 - APART)**(comparisons - count)
+        left -= math.comb(comparisons, count) * MISSED**count * (1 - MISSED)**(comparisons - count)
         if left <= CHANCE:
             return count
     return comparisons
 
 
-def are_apart(a, b, share=0.0):
-    """Whether two intervals have a gap of more than `share` of both widths."""
-    gap = max(a[0], b[0]) - min(a[1], b[1])
-    return gap > share * (a[1] - a[0] + b[1] - b[0])
+def are_apart(a, b):
+    return max(a[0], b[0]) > min(a[1], b[1])
 
 
 class CostStars(ProgramCase):
@@ -64,18 +62,17 @@ class CostStars(ProgramCase):
                        for key in timed for a, b in itertools.combinations(runs, 2)]
         apart = [case for case in comparisons if are_apart(*case[1:])]
         spread = {key: max(run[key]["ratio"] for run in runs) / min(run[key]["ratio"] for run in runs) for key in timed}
-        print(f"{RUNS} runs, {len(timed)} values, {len(comparisons)} comparisons, {len(apart)} intervals apart, at most "
-              f"{most_by_chance(len(comparisons))} by chance; greatest spread of a ratio {max(spread.values()):.3f} of "
-              f"{max(spread, key=spread.get)}; stars {sorted(stars[0])}")
-        for key, a, b in apart:
-            print("apart:", key, a, b)
-        for run in runs:
-            for (knob, value), row in run.items():
-                self.assertFalse(knob == SAME and row["front"] and not row["default"], (value, row))
+        print(f"{RUNS} runs, {len(timed)} values, {len(comparisons)} comparisons, {len(apart)} intervals apart; greatest spread of "
+              f"a ratio {max(spread.values()):.3f} of {max(spread, key=spread.get)}; stars {sorted(stars[0])}")
         for other in stars[1:]:
             self.assertEqual(sorted(stars[0] ^ other), [], "stars that flipped")
-        self.assertLessEqual(len(apart), most_by_chance(len(comparisons)), apart)
-        self.assertEqual([case for case in apart if are_apart(*case[1:], share=1.0)], [])
+        same = [run[SAME] for run in runs]
+        for row in same:
+            self.assertGreater(row["pairs"], 0)
+            self.assertEqual(row["picture"], runs[0]["shadows.texels_per_pixel", "3"]["picture"])
+            self.assertFalse(row["front"], row)
+        missed = [row["ratio_interval"] for row in same if not row["ratio_interval"][0] <= 1 <= row["ratio_interval"][1]]
+        self.assertLessEqual(len(missed), most_by_chance(len(same)), missed)
 
 
 if __name__ == "__main__":
