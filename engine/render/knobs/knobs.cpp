@@ -137,6 +137,19 @@ void KnobRegistry::store(std::string_view name, Knob::Type type, double value) {
   ++version_;
 }
 
+void KnobRegistry::set_number(const Knob& knob, double number) {
+  const std::size_t i = index_of(knob);
+  GLOAM_ASSERT(number >= knob.min && number <= knob.max, "a knob is set to one of its values");
+  values_[i] = number;
+  ++version_;
+}
+
+void KnobRegistry::take_values(const KnobRegistry& other) {
+  GLOAM_ASSERT(values_.size() == other.values_.size(), "values are of a registry with the same knobs");
+  std::ranges::copy(other.values_, values_.begin());
+  version_ = other.version_;
+}
+
 std::string KnobRegistry::unmet_setting(const Knob& knob) const { return unmet_setting(knob, knobs_.size()); }
 
 std::string KnobRegistry::unmet_setting(const Knob& knob, std::size_t depth) const {

@@ -85,6 +85,12 @@ class KnobRegistry {
     store(reference.name, K::kType, reference.number_of(value));
   }
 
+  /// Sets a knob of knobs() or find(). number: one of its values; for Type::choice, the index of the choice. Asserts
+  /// both. Allocates nothing.
+  void set_number(const Knob& knob, double number);
+  /// Takes the values and the version of a registry with the same knobs. Allocates nothing.
+  void take_values(const KnobRegistry& other);
+
   /// Current value of a knob of knobs() or find(), for lists of all knobs. Asserts that the knob is one of this
   /// registry. number: for Type::choice, the index of the choice.
   [[nodiscard]] double number(const Knob& knob) const;

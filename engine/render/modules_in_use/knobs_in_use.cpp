@@ -5,9 +5,17 @@
 namespace gloam {
 
 const KnobRegistry& KnobsInUse::settle(const ModuleSet& modules, const PipelineWait& wait) {
-  if (wait.readiness == Readiness::wait) return set;
-  if (settled && settled->version() == set.version()) return *settled;
-  if (!settled || modules.shown_pipelines_ready(set, wait)) settled = set;
+  const KnobRegistry& drawn = wait.readiness == Readiness::wait ? set : settle_in_background(modules, wait);
+  drawn_version = drawn.version();
+  return drawn;
+}
+
+const KnobRegistry& KnobsInUse::settle_in_background(const ModuleSet& modules, const PipelineWait& wait) {
+  if (!settled) {
+    settled = set;
+  } else if (settled->version() != set.version() && modules.shown_pipelines_ready(set, wait)) {
+    settled->take_values(set);
+  }
   return *settled;
 }
 

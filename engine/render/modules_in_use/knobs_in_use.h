@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "engine/render/knobs/knobs.h"
@@ -14,10 +15,14 @@ struct KnobsInUse {
   KnobRegistry set;
   /// The last values whose pipelines were ready; only with Readiness::background.
   std::optional<KnobRegistry> settled;
+  std::uint64_t drawn_version = 0;  ///< KnobRegistry::version of the values that the last frame was drawn with
 
   /// The knobs of the next frame. With Readiness::background, changed values wait until the pipelines of all modules
   /// that the last frame showed are ready: until then the old ones stay.
   [[nodiscard]] const KnobRegistry& settle(const ModuleSet& modules, const PipelineWait& wait);
+
+ private:
+  [[nodiscard]] const KnobRegistry& settle_in_background(const ModuleSet& modules, const PipelineWait& wait);
 };
 
 }  // namespace gloam

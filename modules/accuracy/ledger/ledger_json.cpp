@@ -67,7 +67,7 @@ Json json_of(const LedgerRow& row) {
   json["reference"] = {{"kind", row.reference_kind}, {"name", row.reference_name}, {"noise", row.reference_noise}};
   json["no_reference"] = row.no_reference;
   json["error"] = errors_json(row);
-  if (row.whole) json["whole"] = whole_json(*row.whole);
+  if (row.whole) json["whole_frame"] = whole_json(*row.whole);
   json["below_noise"] = row.below_noise;
   json["wrong"] = row.wrong;
   json["ms"] = {{"median", row.ms.median_ms}, {"p10", row.ms.p10_ms}, {"p90", row.ms.p90_ms}};
@@ -100,7 +100,9 @@ LedgerRow row_of(const Json& json) {
   row.reference_name = reference.at("name").get<std::string>();
   row.reference_noise = reference.at("noise").get<double>();
   read_errors(json.at("error"), row);
-  if (json.contains("whole")) row.whole = whole_of(json["whole"]);
+  // Ledgers of earlier versions call it `whole`.
+  if (json.contains("whole_frame") || json.contains("whole"))
+    row.whole = whole_of(json.contains("whole_frame") ? json["whole_frame"] : json["whole"]);
   row.below_noise = json.at("below_noise").get<bool>();
   row.wrong = json.at("wrong").get<std::string>();
   const Json& ms = json.at("ms");
@@ -136,8 +138,11 @@ LedgerRow row_of(const Json& json) {
 Json point_row_json(const LedgerRow& measured) {
   const Json row = json_of(measured);
   Json json = Json::object();
+  json["error"] = errors_json(measured);
+  const double ms = measured.ratio > 0.0 ? measured.ms.median_ms / measured.ratio : 0.0;
+  json["interval"] = {ms * measured.ratio_low, ms * measured.ratio_high};  // of the median, ms
   for (const char* key :
-       {"default", "whole", "ms", "wall_ms", "cpu_ms", "gpu_ms", "ratio", "ratio_interval", "ratio_sure_interval",
+       {"default", "whole_frame", "ms", "wall_ms", "cpu_ms", "gpu_ms", "ratio", "ratio_interval", "ratio_sure_interval",
         "pairs", "gpu_bytes", "picture", "reference_picture", "worst", "front"})
     json[key] = row.at(key);
   return json;
@@ -147,7 +152,7 @@ LedgerRow point_row_of(const Json& json, const std::vector<KnobValue>& settings)
   Json row = json;
   row.update({{"knob", ""}, {"value", settings_text(settings)}, {"below_noise", false}, {"wrong", ""}});
   row["reference"] = {{"kind", kWholeFrameKind}, {"name", kWholeFrameName}, {"noise", 0.0}};
-  row["error"] = json.at("whole");
+  if (!json.contains("error")) row["error"] = json.at("whole");  // earlier versions
   row["module_ms"] = {{"cpu", 0.0}, {"gpu", 0.0}};
   return row_of(row);
 }
@@ -157,7 +162,7 @@ Json json_of(const LedgerPoint& point) {
   json["settings"] = Json::object();
   for (const KnobValue& setting : point.settings) json["settings"][setting.knob] = setting.value;
   json["exact"] = point.is_exact;
-  json["predicted"] = {{"ms", point.predicted_ms}, {"flip", point.predicted_flip}};
+  json["predicted"] = {{"ms", point.predicted_ms}, {"error", point.predicted_flip}};
   for (const LedgerRow& camera : point.cameras) json["cameras"].push_back(point_row_json(camera));
   return json;
 }
@@ -167,7 +172,8 @@ LedgerPoint point_of(const Json& json) {
   for (const auto& [knob, value] : json.at("settings").items())
     point.settings.push_back({knob, value.get<std::string>()});
   point.predicted_ms = json.at("predicted").at("ms").get<double>();
-  point.predicted_flip = json.at("predicted").at("flip").get<double>();
+  const Json& predicted = json.at("predicted");
+  point.predicted_flip = predicted.value("error", predicted.value("flip", 0.0));
   point.measured = point_row_of(json, point.settings);
   for (const Json& camera : json.value("cameras", Json::array()))
     point.cameras.push_back(point_row_of(camera, point.settings));
@@ -213,7 +219,8 @@ Json json_of(const LedgerHeader& header) {
   json["quick"] = header.quick;
   json["frames"] = header.frames;
   if (header.seconds > 0.0) json["seconds"] = header.seconds;
-  json["clock"] = header.clock;
+  json["clock"] = header.device_type == "cpu" ? "processor" : "gpu";
+  json["clock_meaning"] = header.clock;
   json["reference_samples"] = header.samples;
   return json;
 }
@@ -237,7 +244,7 @@ LedgerHeader header_of(const Json& json) {
   header.quick = json.at("quick").get<bool>();
   header.frames = json.at("frames").get<std::uint32_t>();
   header.seconds = json.value("seconds", 0.0);
-  header.clock = json.value("clock", std::string());
+  header.clock = json.value("clock_meaning", std::string());
   header.samples = json.at("reference_samples").get<std::uint32_t>();
   return header;
 }

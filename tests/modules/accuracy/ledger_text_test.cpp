@@ -50,10 +50,20 @@ TEST(ledger_json, has_what_scripts_look_for) {
   EXPECT_EQ(json["rows"][0]["reference"]["kind"], "traced");
   EXPECT_TRUE(json["rows"][4]["error"]["psnr_db"].is_null()) << "the same picture has no finite ratio";
   EXPECT_TRUE(json["rows"][5]["error"].empty()) << "no reference, no errors";
-  EXPECT_TRUE(json["rows"][0]["whole"]["flip"]["p99"].is_number());
+  EXPECT_TRUE(json["rows"][0]["whole_frame"]["flip"]["p99"].is_number());
   EXPECT_EQ(json["points"][0]["settings"]["shadows.filter"], "hard");
-  EXPECT_TRUE(json["points"][0]["whole"]["rmse"].is_number());
-  EXPECT_TRUE(json["points"][0]["predicted"]["ms"].is_number());
+  EXPECT_TRUE(json["points"][0]["whole_frame"]["rmse"].is_number());
+  EXPECT_EQ(json["clock"], "processor");
+  EXPECT_TRUE(json["rows"][0]["ratio_interval"][1].is_number());
+  EXPECT_TRUE(json["rows"][0]["no_effect"].is_boolean());
+  for (const auto& point : json["points"]) {
+    EXPECT_TRUE(point["predicted"]["ms"].is_number() && point["predicted"]["error"].is_number());
+    EXPECT_TRUE(point["error"]["flip"]["mean"].is_number() && point["front"].is_boolean());
+    for (const char* name : {"median", "p10", "p90"}) EXPECT_TRUE(point["ms"][name].is_number());
+  }
+  const LedgerRow& row = full_ledger().points[0].measured;
+  EXPECT_NEAR(json["points"][0]["interval"][0], row.ms.median_ms * row.ratio_low / row.ratio, 1e-9);
+  EXPECT_NEAR(json["points"][0]["interval"][1], row.ms.median_ms * row.ratio_high / row.ratio, 1e-9);
   EXPECT_EQ(json["model"]["time"]["worst"], 0.5);
 }
 
@@ -70,12 +80,12 @@ TEST(ledger_json, says_what_is_wrong_with_a_text) {
 
 TEST(ledger_json, reads_ledgers_of_the_same_version_without_later_keys) {
   auto json = nlohmann::json::parse(ledger_json(full_ledger()));
-  json.erase("clock");
+  json.erase("clock_meaning");
   json.erase("points");
   json.erase("model");
   for (auto& row : json["rows"])
     for (const char* later :
-         {"wall_ms", "ratio_interval", "ratio_sure_interval", "pairs", "picture", "no_effect", "whole"})
+         {"wall_ms", "ratio_interval", "ratio_sure_interval", "pairs", "picture", "no_effect", "whole_frame"})
       row.erase(later);
   for (auto& row : json["rows"]) row["error"].erase("edges");
   const auto read = parse_ledger_json(json.dump());
@@ -83,6 +93,24 @@ TEST(ledger_json, reads_ledgers_of_the_same_version_without_later_keys) {
   EXPECT_TRUE(read->points.empty() && !read->model && !read->rows[0].whole && !read->rows[0].edges);
   EXPECT_EQ(read->rows[0].ratio, full_ledger().rows[0].ratio);
   EXPECT_EQ(read->rows[0].ratio_high, read->rows[0].ratio) << "an interval of one point";
+}
+
+TEST(ledger_json, reads_the_keys_of_earlier_versions) {
+  auto json = nlohmann::json::parse(ledger_json(full_ledger()));
+  for (auto& row : json["rows"])
+    if (row.contains("whole_frame")) row["whole"] = row["whole_frame"], row.erase("whole_frame");
+  for (auto& point : json["points"]) {
+    point["whole"] = point["whole_frame"];
+    point["predicted"]["flip"] = point["predicted"]["error"];
+    point["predicted"].erase("error");
+    point.erase("whole_frame");
+    point.erase("error");
+    point.erase("interval");
+  }
+  const auto read = parse_ledger_json(json.dump());
+  ASSERT_TRUE(read.ok()) << read.error().message;
+  EXPECT_EQ(read->rows, full_ledger().rows);
+  EXPECT_EQ(read->points, full_ledger().points);
 }
 
 TEST(ledger_json, survives_cutting_at_every_byte) {

@@ -72,13 +72,13 @@ class CostCameras(ProgramCase):
         ledger = self.read_json("points/ledger.json")
         self.assertGreaterEqual(len(ledger["points"]), 2)
         standard, = (point for point in ledger["points"] if point["default"])
-        shown = max((0, 1), key=lambda camera: standard["cameras"][camera]["whole"]["flip"]["mean"])
+        shown = max((0, 1), key=lambda camera: standard["cameras"][camera]["whole_frame"]["flip"]["mean"])
         for point in ledger["points"]:
             dark, lit = point["cameras"]
             self.assertEqual(point["ms"]["median"], max(dark["ms"]["median"], lit["ms"]["median"]))
             self.assertAlmostEqual(point["ratio"], point["ms"]["median"] / standard["ms"]["median"], places=6)
-            self.assertEqual(point["whole"]["flip"]["mean"], max(dark["whole"]["flip"]["mean"], lit["whole"]["flip"]["mean"]))
-            self.assertEqual(dark["whole"]["flip"]["mean"], 0.0, "nothing is in sight")
+            self.assertEqual(point["whole_frame"]["flip"]["mean"], max(dark["whole_frame"]["flip"]["mean"], lit["whole_frame"]["flip"]["mean"]))
+            self.assertEqual(dark["whole_frame"]["flip"]["mean"], 0.0, "nothing is in sight")
             self.assertEqual(point["picture"], point["cameras"][shown]["picture"], "where the user's settings are least right")
         with open(self.folder / "points/points.csv", encoding="utf-8", newline="") as file:
             cameras = [line["camera"] for line in csv.DictReader(file)]

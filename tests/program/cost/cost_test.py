@@ -101,12 +101,12 @@ class Cost(ProgramCase):
         self.assertEqual([point["ms"]["median"] for point in found], sorted(point["ms"]["median"] for point in found))
         for point in found:
             if point["exact"]:
-                self.assertEqual(point["whole"]["flip"]["mean"], 0.0)
+                self.assertEqual(point["whole_frame"]["flip"]["mean"], 0.0)
                 self.assertNotIn("shadows.mode", point["settings"], "no value is exact: the default, not the user's off")
             else:
                 self.assertEqual(point["settings"]["shadows.mode"], "off", "the user's setting is kept")
         for row in ledger["rows"]:
-            self.assertIn("flip", row["whole"])
+            self.assertIn("flip", row["whole_frame"])
         scaled = [point for point in found if "views.scale" in point["settings"]]
         self.assertTrue(scaled, "a smaller picture is cheaper")
         with open(self.folder / "ledger/points.csv", encoding="utf-8", newline="") as file:

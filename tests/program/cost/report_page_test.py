@@ -223,7 +223,7 @@ class ReportPage(ProgramCase):
             numbers = {"Ratio": row["ratio"], "Frame, ms": row["ms"]["median"], "FLIP mean": error.get("flip", {}).get("mean"),
                        "FLIP p99": error.get("flip", {}).get("p99"), "FLIP at edges": error.get("edges", {}).get("flip", {}).get("mean"),
                        "RMSE, cd/m²": error.get("rmse"), "Counted": error.get("counted", {}).get("value"),
-                       "Whole frame, FLIP": row.get("whole", {}).get("flip", {}).get("mean")}
+                       "Whole frame, FLIP": row.get("whole_frame", {}).get("flip", {}).get("mean")}
             edges += numbers["FLIP at edges"] is not None
             for head, number in numbers.items():
                 text, sort = cell[head]

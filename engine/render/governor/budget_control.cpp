@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "engine/render/governor/budget_control.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace gloam {
+namespace {
+
+/// The points that no other one beats, the fastest first.
+std::vector<FrontPoint> unbeaten(std::vector<FrontPoint> points) {
+  std::erase_if(points, [](const FrontPoint& point) { return !(point.ms > 0.0) || !std::isfinite(point.ms + point.error); });
+  std::ranges::stable_sort(points, [](const FrontPoint& a, const FrontPoint& b) {
+    return a.ms != b.ms ? a.ms < b.ms : a.error < b.error;
+  });
+  std::vector<FrontPoint> front;
+  for (FrontPoint& point : points)
+    if (front.empty() || point.error < front.back().error) front.push_back(std::move(point));
+  return front;
+}
+
+bool names(const FrontPoint& point, const std::string& knob) {
+  return std::ranges::find(point.settings, knob, &KnobOverride::name) != point.settings.end();
+}
+
+}  // namespace
+
+Result<BudgetControl> BudgetControl::create(FrameBudget budget, const KnobRegistry& knobs) {
+  if (!(budget.ms > 0.0)) return Error{ErrorKind::usage, "a budget is a time above 0 ms"};
+  std::vector<FrontPoint> front = unbeaten(std::move(budget.front));
+  if (front.empty()) return Error{ErrorKind::usage, "a budget needs a measured setting to choose"};
+  for (const std::string& name : budget.locked)
+    if (knobs.find(name) == nullptr) return Error{ErrorKind::usage, "unknown knob " + name + " is locked"};
+  std::vector<GovernorPoint> points;
+  for (const FrontPoint& point : front) points.push_back({point.ms, point.error});
+  BudgetControl control(std::move(front), Governor(points, budget.ms));
+  GLOAM_TRY(control.resolve(budget.locked, knobs));
+  return control;
+}
+
+Status BudgetControl::resolve(const std::vector<std::string>& locked, const KnobRegistry& knobs) {
+  for (std::size_t i = 0; i < knobs.knobs().size(); ++i) {
+    const std::string& name = knobs.knobs()[i].name;
+    const bool named = std::ranges::any_of(front_, [&](const FrontPoint& point) { return names(point, name); });
+    if (named && std::ranges::find(locked, name) == locked.end()) governed_.push_back(i);
+  }
+  for (const FrontPoint& point : front_) {
+    KnobRegistry values = knobs;
+    for (const Knob& knob : knobs.knobs()) values.set_number(knob, knob.default_number);
+    for (const KnobOverride& setting : point.settings) GLOAM_TRY(values.set(setting.name, setting.value));
+    for (const std::size_t index : governed_) numbers_.push_back(values.number(values.knobs()[index]));
+  }
+  return {};
+}
+
+void BudgetControl::apply(KnobRegistry& knobs) const {
+  const std::size_t first = governor_.point() * governed_.size();
+  for (std::size_t i = 0; i < governed_.size(); ++i) {
+    const Knob& knob = knobs.knobs()[governed_[i]];
+    // A set counts as a change, even with the same value.
+    if (knobs.number(knob) != numbers_[first + i]) knobs.set_number(knob, numbers_[first + i]);
+  }
+}
+
+GovernorDecision BudgetControl::add(const FrameTime& time, std::uint64_t drawn_version, KnobRegistry& knobs) {
+  const bool drawn_here = drawn_version == knobs.version();
+  const bool settled = drawn_here && frames_here_ >= kUnjudged;
+  frames_here_ += drawn_here && frames_here_ < kUnjudged ? 1 : 0;
+  const GovernorDecision decision =
+      governor_.add({.ms = time.ms, .judged = time.judged && settled, .view = time.view});
+  if (!decision.changed()) return decision;
+  frames_here_ = 0;
+  ++changes_;
+  last_change_ = decision;
+  apply(knobs);
+  return decision;
+}
+
+BudgetState BudgetControl::state() const {
+  const FrontPoint& point = front_[governor_.point()];
+  return {.ms = governor_.budget_ms(),
+          .points = front_.size(),
+          .point = governor_.point(),
+          .changes = changes_,
+          .error = point.error,
+          .settings = point.settings,
+          .last_change = last_change_};
+}
+
+}  // namespace gloam

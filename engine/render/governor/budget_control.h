@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/render/governor/frame_budget.h"
+#include "engine/render/governor/governor.h"
+#include "engine/render/knobs/knobs.h"
+
+namespace gloam {
+
+/// Sets knobs to the points that the governor chooses. Knobs that no point names, and locked ones, are left alone.
+class BudgetControl {
+ public:
+  /// Frames after a change of point that are not judged: they make images and fill histories.
+  static constexpr std::uint32_t kUnjudged = 2;
+
+  /// Usage error for a budget that is not above 0, without a point, or with a setting that the registry refuses. Then
+  /// nothing has changed. knobs: those that add() will set.
+  [[nodiscard]] static Result<BudgetControl> create(FrameBudget budget, const KnobRegistry& knobs);
+
+  /// Sets the knobs to the point in use.
+  void apply(KnobRegistry& knobs) const;
+  /// Adds a frame and decides about the next ones. drawn_version: KnobRegistry::version of the values that it was drawn
+  /// with. After a change the knobs have the new point's values. Allocates nothing.
+  GovernorDecision add(const FrameTime& time, std::uint64_t drawn_version, KnobRegistry& knobs);
+  [[nodiscard]] BudgetState state() const;
+
+ private:
+  BudgetControl(std::vector<FrontPoint> front, const Governor& governor) : front_(std::move(front)), governor_(governor) {}
+  /// Finds the knobs that points set, and their numbers in each point.
+  [[nodiscard]] Status resolve(const std::vector<std::string>& locked, const KnobRegistry& knobs);
+
+  std::vector<FrontPoint> front_;     ///< the fastest first, each more right than all before it
+  std::vector<std::size_t> governed_; ///< indices into KnobRegistry::knobs()
+  std::vector<double> numbers_;       ///< of the governed knobs, point by point
+  Governor governor_;
+  std::uint32_t frames_here_ = 0;     ///< drawn with the point in use
+  std::size_t changes_ = 0;
+  GovernorDecision last_change_;
+};
+
+}  // namespace gloam
