@@ -34,7 +34,6 @@ struct RawTexts {
   std::optional<std::string> time;
   std::optional<std::string> dt;
   std::optional<std::string> budget;
-  std::optional<std::string> ledger;
   std::optional<std::string> shard;
   std::optional<std::string> minutes;
   bool version = false;
@@ -74,8 +73,13 @@ void add_machine_options(CLI::App& app, Options& options, RawTexts& raw) {
   app.add_option("--trace", options.trace, "Write a Chrome trace of systems and passes")->type_name("FILE");
   app.add_option("--device", options.device, "Vulkan device: auto, cpu, gpu, or part of its name")->type_name("DEVICE");
   app.add_option("--threads", options.threads, "Number of job threads (default 0: one per core)")->type_name("N");
-  app.add_option("--budget", raw.budget, "Not built yet: choose knobs for a time budget")->type_name("BUDGET");
-  app.add_option("--ledger", raw.ledger, "Not built yet: the cost ledger to choose knobs from")->type_name("FILE");
+  app.add_option(
+         "--budget", raw.budget,
+         "play, render: keep frames within a time, for example 33ms, by moving along the combinations of --ledger; "
+         "knobs of --set keep their values")
+      ->type_name("TIME");
+  app.add_option("--ledger", options.ledger, "The ledger of gloam cost for --budget: its folder, or its ledger.json")
+      ->type_name("FILE");
   app.add_option("--cache-dir", options.cache_dir, "Directory for compiled pipelines and captures, kept between runs")
       ->type_name("DIR");
   app.add_flag("--validate", options.validate,
@@ -206,6 +210,24 @@ Status read_minutes(std::string_view text, std::optional<double>& minutes) {
   return {};
 }
 
+Status read_budget(std::string_view text, Options& options) {
+  const bool draws = options.command == Command::play || options.command == Command::render;
+  if (!draws) return usage("--budget is of play and render");
+  if (text.find('=') != std::string_view::npos)
+    return usage("--budget wants the time of a whole frame, such as 33ms: a budget of one effect is not built yet");
+  std::string_view digits = text;
+  if (digits.ends_with("ms")) digits.remove_suffix(2);
+  double number = 0.0;
+  const char* const end = digits.data() + digits.size();
+  const auto read = std::from_chars(digits.data(), end, number);
+  if (read.ec != std::errc() || read.ptr != end || !(number > 0.0 && number <= 1e6))
+    return usage("--budget wants a time above 0 and up to 1000000 ms, such as 33ms, not '" + std::string(text) + "'");
+  if (options.ledger.empty()) return usage("--budget needs --ledger: what gloam cost has measured");
+  if (options.scale_given) return usage("--budget chooses the scale: leave --scale out");
+  options.budget_ms = number;
+  return {};
+}
+
 Status read_shard(const std::string& text, Shard& shard) {
   const bool read = parse_pair(text, '/', shard.number, shard.count);
   if (read && shard.number >= 1 && shard.number <= shard.count) return {};
@@ -213,8 +235,6 @@ Status read_shard(const std::string& text, Shard& shard) {
 }
 
 Status check_texts(Options& options, const RawTexts& raw) {
-  for (const auto& [name, text] : {std::pair("--budget", &raw.budget), std::pair("--ledger", &raw.ledger)})
-    if (text->has_value()) return usage(std::string(name) + " is not built yet; set knobs with --set or --config");
   if (!raw.size.empty()) {
     const bool read = parse_pair(raw.size, 'x', options.width, options.height);
     if (!read || options.width < 1 || options.height < 1 || options.width > kMaxSize || options.height > kMaxSize)
@@ -228,6 +248,8 @@ Status check_texts(Options& options, const RawTexts& raw) {
     if (options.scene_list.empty()) return usage("--shard needs --list FILE");
     GLOAM_TRY(read_shard(*raw.shard, options.shard));
   }
+  if (raw.budget) GLOAM_TRY(read_budget(*raw.budget, options));
+  if (!raw.budget && !options.ledger.empty()) return usage("--ledger needs --budget");
   if (raw.minutes) GLOAM_TRY(read_minutes(*raw.minutes, options.minutes));
   if (raw.scale) GLOAM_TRY(read_scale(*raw.scale, options.scale));
   if (raw.in_flight) {

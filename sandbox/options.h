@@ -55,7 +55,9 @@ struct Options {
   std::uint32_t threads = 0;  ///< 0: one per core
   std::string animation;
   std::string config;
-  std::string cache_dir;  ///< empty: compiled pipelines are not kept between runs
+  std::string cache_dir;            ///< empty: compiled pipelines are not kept between runs
+  std::optional<double> budget_ms;  ///< play, render: time of a frame
+  std::string ledger;               ///< play, render: file or folder of `cost`, with budget_ms
   bool validate = false;
   std::optional<PixelPosition> pick;
   bool quiet = false;

@@ -38,6 +38,29 @@ Status Renderer::check_visualizer(const World& world, std::string_view name) con
   return gloam::check_visualizer(modules(), parts_->knobs.set, world, name);
 }
 
+Status Renderer::set_budget(FrameBudget budget) {
+  parts_->check_idle("set_budget");
+  auto control = BudgetControl::create(std::move(budget), knobs());
+  if (!control.ok()) return control.error();
+  parts_->budget.emplace(std::move(control).value());
+  parts_->budget->apply(knobs());
+  return {};
+}
+
+void Renderer::clear_budget() { parts_->budget.reset(); }
+
+std::optional<GovernorDecision> Renderer::add_frame_time(const FrameTime& time) {
+  parts_->check_idle("add_frame_time");
+  if (!parts_->budget) return std::nullopt;
+  FrameTime own = time;
+  own.judged = own.judged && parts_->last_frame.assets_pending == 0;
+  return parts_->budget->add(own, parts_->knobs.drawn_version, knobs());
+}
+
+std::optional<BudgetState> Renderer::budget() const {
+  return parts_->budget ? std::optional(parts_->budget->state()) : std::nullopt;
+}
+
 void Renderer::prepare_world(World& world) const {
   parts_->check_idle("prepare_world");
   if (parts_->worlds.has(world)) {

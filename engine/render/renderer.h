@@ -15,6 +15,7 @@
 #include "engine/core/result.h"
 #include "engine/gpu/types.h"
 #include "engine/render/frame_report.h"
+#include "engine/render/governor/frame_budget.h"
 #include "engine/render/readback/picture.h"
 #include "engine/render/renderer_options.h"
 #include "engine/render/view_request.h"
@@ -39,6 +40,19 @@ class Renderer {
   /// Whether a visualizer can be shown: its name, its argument and the knob that it needs. Usage error if not; for an
   /// unknown name it lists the valid ones.
   [[nodiscard]] Status check_visualizer(const World& world, std::string_view name) const;
+
+  /// From now on the renderer chooses among measured settings so that frames stay within a time: after each frame that
+  /// add_frame_time() tells of, it may set the knobs that the front's points name to another point. Replaces an earlier
+  /// budget. Usage error if the time is not above 0, or if a setting or a locked knob does not exist; then nothing
+  /// changes. With Readiness::background, a change waits until its pipelines are ready.
+  [[nodiscard]] Status set_budget(FrameBudget budget);
+  /// Ends it. The knobs keep the values that they have.
+  void clear_budget();
+  /// How long the last frame took, for the budget; call it once a frame. Returns what was decided; nothing without a
+  /// budget. Frames that were drawn before a change has taken effect, and the first after it, are not judged.
+  std::optional<GovernorDecision> add_frame_time(const FrameTime& time);
+  /// None without a budget.
+  [[nodiscard]] std::optional<BudgetState> budget() const;
 
   /// Registers the components and resources of the scene and of every module. What the world already holds stays as it
   /// is. A world that is prepared again is released. One renderer at a time draws a world: the one that has prepared

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/core/result.h"
+#include "engine/render/governor/frame_budget.h"
 
 // The cost ledger: error and time of each value of each knob, and of combinations, on one scene and device.
 
@@ -214,6 +215,10 @@ struct Ledger {
   std::vector<LedgerPoint> points = {};    ///< the fastest first
   std::optional<ModelQuality> model = {};  ///< none without points
 };
+
+/// The ledger's combinations as settings to choose from for a time budget: median times, and mean FLIP against the
+/// whole frame.
+[[nodiscard]] std::vector<FrontPoint> front_points(const Ledger& ledger);
 
 /// "shadows.filter=hard views.scale=0.5"; "default" without settings.
 [[nodiscard]] std::string settings_text(const std::vector<KnobValue>& settings);

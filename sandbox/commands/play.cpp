@@ -14,6 +14,7 @@
 #include "sandbox/play/start/loading_screen.h"
 #include "sandbox/play/start/scene_opening.h"
 #include "sandbox/session/drawing/frame_tracing.h"
+#include "sandbox/session/drawing/session_budget.h"
 #include "sandbox/session/loading/scene_loading.h"
 #include "sandbox/session/results/run_output.h"
 #include "sandbox/session/session.h"
@@ -58,6 +59,7 @@ Result<std::string> play_scene(const CommandContext& context, Window& window, Pl
     }
   }
   GLOAM_TRY(check_shown_live(*session.value()->renderer, options.view));
+  GLOAM_TRY(set_budget(**session, options, context.log));
   Player player(options, **session, pictures, lasting, context.log);
   GLOAM_TRY(player.run());
   if (player.next_scene().empty()) GLOAM_TRY(leave_results(context, **session, player));

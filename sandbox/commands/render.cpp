@@ -12,6 +12,7 @@
 #include "sandbox/session/drawing/frame_run.h"
 #include "sandbox/session/drawing/frame_tracing.h"
 #include "sandbox/session/drawing/list_room.h"
+#include "sandbox/session/drawing/session_budget.h"
 #include "sandbox/session/loading/scene_loading.h"
 #include "sandbox/session/program_knobs.h"
 #include "sandbox/session/results/heat_fit.h"
@@ -45,13 +46,41 @@ Status show_traced_view(Session& session, const CommandContext& context, const V
   return {};
 }
 
-Result<std::vector<FrameSample>> render_frames(Session& session, const Options& options, const ViewSettings& view) {
+/// The size of the next frame: that of the picture, times the knob's scale, which a budget may change.
+void set_size(const Session& session, const Options& options, ViewSettings& view) {
+  const double scale = view_scale(session.renderer->knobs());
+  view.width = scaled_size(options.width, scale);
+  view.height = scaled_size(options.height, scale);
+}
+
+/// Draws a frame within the budget, if there is one. samples: the frames before it. Warns if no setting fits.
+Result<FrameSample> render_in_budget(Session& session, const CommandContext& context, ShownView& shown,
+                                     const std::vector<FrameSample>& samples) {
+  Renderer& renderer = *session.renderer;
+  if (!samples.empty()) {
+    const auto decision = renderer.add_frame_time({.ms = samples.back().wall_ms()});
+    if (decision && decision->reason == GovernorReason::cannot_fit)
+      context.log.warning(budget_text(*decision, *renderer.budget()));
+  }
+  set_size(session, context.options, shown.view);
+  return session.render_frame({.settings = shown.drawn(), .target = {}});
+}
+
+Result<std::vector<FrameSample>> render_frames(Session& session, const CommandContext& context, ShownView& shown) {
+  const Options& options = context.options;
   FrameRun run(session, options.in_flight);
+  std::vector<FrameSample> samples;
   for (std::uint32_t frame = 0; frame < options.frames; ++frame) {
     session.set_clock(options.time_s + frame * options.dt_s, options.dt_s);
-    GLOAM_TRY(run.draw({.settings = view, .target = {}}));
+    if (!options.budget_ms) {
+      GLOAM_TRY(run.draw({.settings = shown.drawn(), .target = {}}));
+      continue;
+    }
+    auto sample = render_in_budget(session, context, shown, samples);
+    if (!sample) return sample.error();
+    samples.push_back(std::move(sample).value());
   }
-  return run.finish();
+  return options.budget_ms ? Result(std::move(samples)) : run.finish();
 }
 
 /// Draws the last frame again with the range of the colour scale that fits it.
@@ -84,7 +113,7 @@ Result<std::vector<FrameSample>> render_sequence(Session& session, const Command
   std::vector<FrameSample> samples;
   for (std::uint32_t frame = 0; frame < options.frames; ++frame) {
     session.set_clock(options.time_s + frame * options.dt_s, options.dt_s);
-    auto sample = session.render_frame({.settings = shown.drawn(), .target = {}});
+    auto sample = render_in_budget(session, context, shown, samples);
     if (!sample) return sample.error();
     samples.push_back(std::move(sample).value());
     GLOAM_TRY(settle_view(session, context, shown, samples.back()));
@@ -104,15 +133,15 @@ Status run_render(const CommandContext& context) {
   if (!opened) return opened.error();
   Session& session = *opened.value();
   GLOAM_TRY(ensure_baked(session, options, context.log, &context.console));
-  const double scale = view_scale(session.renderer->knobs());
-  ShownView shown = {.view = session.view_settings(scaled_size(options.width, scale),
-                                                   scaled_size(options.height, scale), options.view),
+  GLOAM_TRY(set_budget(session, options, context.log));
+  ShownView shown = {.view = session.view_settings(options.width, options.height, options.view),
                      .traced = traced_view(*session.renderer, options.view)};
+  set_size(session, options, shown.view);
   shown.fit = fits_heat_range(session.renderer->knobs()) && shows_heat(*session.renderer, options.view);
   const std::string path = options.out.empty() ? "out/" + scene_stem(options.scene) + ".png" : options.out;
   const auto numbered = numbered_path(path);
   auto samples =
-      numbered ? render_sequence(session, context, shown, *numbered) : render_frames(session, options, shown.drawn());
+      numbered ? render_sequence(session, context, shown, *numbered) : render_frames(session, context, shown);
   if (!samples) return samples.error();
   if (!numbered) GLOAM_TRY(settle_view(session, context, shown, samples->back()));
 

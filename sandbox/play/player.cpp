@@ -10,6 +10,7 @@
 
 #include "sandbox/output/file_io.h"
 #include "sandbox/session/drawing/frame_tracing.h"
+#include "sandbox/session/drawing/session_budget.h"
 #include "sandbox/session/loading/scene_loading.h"
 #include "sandbox/session/program_knobs.h"
 #include "sandbox/session/results/heat_fit.h"
@@ -61,7 +62,7 @@ Status Player::run() {
   while (options_.frames == 0 || frames < options_.frames) {
     WindowInput input = poll();
     count_step();
-    adapt_scale();
+    adapt_to_time();
     reload_shaders();
     panel_.set_scale(window.content_scale());
     GLOAM_TRY(panel_.update(input, {window.width(), window.height(), frame_s_}, settings_, scale_, controls()));
@@ -134,6 +135,7 @@ void Player::show_camera(std::uint32_t number) {
   session_.camera = camera;
   settings_ = session_.view_settings(settings_.width, settings_.height, settings_.visualizer);
   settings_.camera_cut = true;
+  ++views_;
   flight_ = {};
   orbit_.reset();
 }
@@ -224,9 +226,19 @@ Status Player::move_camera(const WindowInput& input) {
 }
 
 /// On a software device the whole turn counts. A GPU waits for the display, so there its own time counts.
-void Player::adapt_scale() {
-  if (shown_) scale_.add(on_software_ ? frame_s_ * 1e3 : session_.renderer->report().gpu_ms);
+void Player::adapt_to_time() {
+  if (!shown_) return;
+  const double ms = on_software_ ? frame_s_ * 1e3 : session_.renderer->report().gpu_ms;
+  if (!options_.budget_ms) {
+    scale_.add(ms);
+    return;
+  }
+  const auto decision = session_.renderer->add_frame_time({.ms = ms, .view = views_});
+  if (decision && decision->reason != GovernorReason::none)
+    panel_.tell(budget_text(*decision, *session_.renderer->budget()), false);
 }
+
+double Player::scale() const { return options_.budget_ms ? view_scale(session_.renderer->knobs()) : scale_.scale(); }
 
 /// Draws with the shaders that were changed; the panel shows why one cannot be used.
 void Player::reload_shaders() {
@@ -270,7 +282,7 @@ Result<bool> Player::draw() {
 /// The next frame's view: drawn into the window's picture, or at a reduced size and then enlarged into it.
 Result<ViewRequest> Player::request() {
   ViewRequest request = {.settings = settings_, .target = {}, .keep_linear = false};
-  const double scale = scale_.scale();
+  const double scale = this->scale();
   request.settings.width = scaled(settings_.width, scale);
   request.settings.height = scaled(settings_.height, scale);
   if (scale != drawn_scale_ && drawn_scale_ != 0.0) session_.renderer->free_idle_memory();

@@ -59,7 +59,10 @@ class Player {
   [[nodiscard]] Status choose_heat_range();
   void count_step();
   [[nodiscard]] Status move_camera(const WindowInput& input);
-  void adapt_scale();
+  /// Tells the budget, or else the automatic scale, how long the frame took.
+  void adapt_to_time();
+  /// Share of the window's width and height that the next frame is drawn at.
+  [[nodiscard]] double scale() const;
   void reload_shaders();
   [[nodiscard]] Result<bool> draw();
   [[nodiscard]] Result<ViewRequest> request();
@@ -78,6 +81,7 @@ class Player {
   bool on_software_;
   ResolutionScale scale_;
   double drawn_scale_ = 0.0;  ///< of the last frame; 0: none yet
+  std::uint64_t views_ = 0;   ///< camera cuts so far, for the budget
   Upscaler upscaler_;
   PlayPanel panel_;
   ShaderReload shaders_;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "sandbox/options.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,6 +13,7 @@
 namespace gloam {
 namespace {
 
+using ::testing::HasSubstr;
 using Arguments = std::vector<std::string>;
 
 Result<std::variant<Options, PrintAndLeave>> parse(const Arguments& arguments) {
@@ -158,13 +160,21 @@ TEST(Options, an_unknown_command_is_answered_with_the_nearest_one_before_the_lis
   EXPECT_EQ(fault({"dance"}), "unknown command 'dance'; " + list);
 }
 
-TEST(Options, options_that_do_nothing_yet_are_refused) {
-  const std::string reason = " is not built yet; set knobs with --set or --config";
-  for (const char* command : {"render", "play", "inspect", "cost", "bake", "bench"}) {
-    EXPECT_EQ(fault({command, "--ledger", "l.json", "a.gltf"}), "--ledger" + reason) << command;
-    EXPECT_EQ(fault({command, "--budget", "8ms", "a.gltf"}), "--budget" + reason) << command;
+TEST(Options, a_budget_is_a_time_and_needs_a_ledger) {
+  for (const char* text : {"33ms", "33", "33.0ms"}) {
+    const auto options = parse({"render", "a.gltf", "--budget", text, "--ledger", "l"});
+    ASSERT_TRUE(options.ok()) << text;
+    EXPECT_EQ(std::get<Options>(*options).budget_ms, 33.0);
+    EXPECT_EQ(std::get<Options>(*options).ledger, "l");
   }
-  EXPECT_EQ(fault({"render", "a.gltf", "--budget", "8ms", "--ledger", "l.json"}), "--budget" + reason);
+  EXPECT_EQ(fault({"render", "a.gltf", "--budget", "8ms"}), "--budget needs --ledger: what gloam cost has measured");
+  EXPECT_EQ(fault({"render", "a.gltf", "--ledger", "l"}), "--ledger needs --budget");
+  for (const char* text : {"", "ms", "0", "-8ms", "nan", "inf", "8s", "8 ms", "2e6ms"})
+    EXPECT_THAT(fault({"play", "a.gltf", "--ledger", "l", "--budget", text}), HasSubstr("--budget wants a time"))
+        << text;
+  EXPECT_THAT(fault({"render", "a.gltf", "--ledger", "l", "--budget", "grass=8ms"}), HasSubstr("one effect"));
+  for (const char* command : {"inspect", "cost", "bake", "bench"})
+    EXPECT_EQ(fault({command, "--budget", "8ms", "a.gltf"}), "--budget is of play and render") << command;
 }
 
 TEST(Options, the_help_says_that_the_seed_seeds_nothing_yet) {

@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
+
 #include "engine/core/once_log.h"
 #include "engine/gpu/device.h"
+#include "engine/render/governor/budget_control.h"
 #include "engine/render/modules_in_use/knobs_in_use.h"
 #include "engine/render/modules_in_use/module_set.h"
 #include "engine/render/renderer_options.h"
@@ -32,6 +35,7 @@ struct RendererParts {
   gpu::DeviceUser device_user;
   OnceLog once;  ///< warnings to options.log
   KnobsInUse knobs;
+  std::optional<BudgetControl> budget;
   Schedule schedule;
   FrameResources resources;
   ModuleSet modules;

@@ -11,10 +11,10 @@ namespace {
 
 /// The points that no other one beats, the fastest first.
 std::vector<FrontPoint> unbeaten(std::vector<FrontPoint> points) {
-  std::erase_if(points, [](const FrontPoint& point) { return !(point.ms > 0.0) || !std::isfinite(point.ms + point.error); });
-  std::ranges::stable_sort(points, [](const FrontPoint& a, const FrontPoint& b) {
-    return a.ms != b.ms ? a.ms < b.ms : a.error < b.error;
-  });
+  std::erase_if(points,
+                [](const FrontPoint& point) { return !(point.ms > 0.0) || !std::isfinite(point.ms + point.error); });
+  std::ranges::stable_sort(
+      points, [](const FrontPoint& a, const FrontPoint& b) { return a.ms != b.ms ? a.ms < b.ms : a.error < b.error; });
   std::vector<FrontPoint> front;
   for (FrontPoint& point : points)
     if (front.empty() || point.error < front.back().error) front.push_back(std::move(point));
@@ -48,7 +48,7 @@ Status BudgetControl::resolve(const std::vector<std::string>& locked, const Knob
   }
   for (const FrontPoint& point : front_) {
     KnobRegistry values = knobs;
-    for (const Knob& knob : knobs.knobs()) values.set_number(knob, knob.default_number);
+    for (const Knob& knob : values.knobs()) values.set_number(knob, knob.default_number);
     for (const KnobOverride& setting : point.settings) GLOAM_TRY(values.set(setting.name, setting.value));
     for (const std::size_t index : governed_) numbers_.push_back(values.number(values.knobs()[index]));
   }
@@ -68,8 +68,7 @@ GovernorDecision BudgetControl::add(const FrameTime& time, std::uint64_t drawn_v
   const bool drawn_here = drawn_version == knobs.version();
   const bool settled = drawn_here && frames_here_ >= kUnjudged;
   frames_here_ += drawn_here && frames_here_ < kUnjudged ? 1 : 0;
-  const GovernorDecision decision =
-      governor_.add({.ms = time.ms, .judged = time.judged && settled, .view = time.view});
+  const GovernorDecision decision = governor_.add({.ms = time.ms, .judged = time.judged && settled, .view = time.view});
   if (!decision.changed()) return decision;
   frames_here_ = 0;
   ++changes_;

@@ -31,15 +31,16 @@ class BudgetControl {
   [[nodiscard]] BudgetState state() const;
 
  private:
-  BudgetControl(std::vector<FrontPoint> front, const Governor& governor) : front_(std::move(front)), governor_(governor) {}
+  BudgetControl(std::vector<FrontPoint> front, const Governor& governor)
+      : front_(std::move(front)), governor_(governor) {}
   /// Finds the knobs that points set, and their numbers in each point.
   [[nodiscard]] Status resolve(const std::vector<std::string>& locked, const KnobRegistry& knobs);
 
-  std::vector<FrontPoint> front_;     ///< the fastest first, each more right than all before it
-  std::vector<std::size_t> governed_; ///< indices into KnobRegistry::knobs()
-  std::vector<double> numbers_;       ///< of the governed knobs, point by point
+  std::vector<FrontPoint> front_;      ///< the fastest first, each more right than all before it
+  std::vector<std::size_t> governed_;  ///< indices into KnobRegistry::knobs()
+  std::vector<double> numbers_;        ///< of the governed knobs, point by point
   Governor governor_;
-  std::uint32_t frames_here_ = 0;     ///< drawn with the point in use
+  std::uint32_t frames_here_ = 0;  ///< drawn with the point in use
   std::size_t changes_ = 0;
   GovernorDecision last_change_;
 };

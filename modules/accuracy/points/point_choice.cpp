@@ -9,8 +9,10 @@
 namespace gloam {
 namespace {
 
-/// Errors below it are invisible and equally good: they end the logarithmic scale.
-constexpr double kLeastError = 1e-4;
+/// Errors below it are invisible and equally good: they end the logarithmic scale. Nobody sees 0.01.
+constexpr double kLeastError = 0.003;
+/// Of the user's time. Gaps of the front beyond it are not worth filling: nobody pays more.
+constexpr double kMostRatio = 2.0;
 /// A neighbour's predicted error over that of the front's line.
 constexpr double kMostAboveFront = 1.1;
 
@@ -43,11 +45,13 @@ struct Segment {
 };
 
 /// The area that a point would add to what the front covers, on logarithmic scales: over all times from the point's own
-/// to that of the slowest one, by how much it is more right than the front. A point near another one adds little.
+/// to that of the slowest one (at most kMostRatio), by how much it is more right than the front. A point near another
+/// one adds little.
 double added_area(const std::vector<const MeasuredCost*>& front, const Cost& cost) {
   double area = 0.0;
   for (std::size_t i = 0; i + 1 < front.size(); ++i) {
-    const double from = std::max(front[i]->cost.ratio, cost.ratio), to = front[i + 1]->cost.ratio;
+    const double from = std::max(front[i]->cost.ratio, cost.ratio);
+    const double to = std::min(front[i + 1]->cost.ratio, kMostRatio);
     if (to > from) area += std::log(to / from) * std::max(log_error(front[i]->cost) - log_error(cost), 0.0);
   }
   return area;

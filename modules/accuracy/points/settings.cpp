@@ -6,6 +6,18 @@
 
 namespace gloam {
 
+std::vector<FrontPoint> front_points(const Ledger& ledger) {
+  std::vector<FrontPoint> points;
+  for (const LedgerPoint& measured : ledger.points) {
+    if (!measured.measured.flip) continue;
+    FrontPoint& point = points.emplace_back();
+    point.ms = measured.measured.ms.median_ms;
+    point.error = measured.measured.flip->mean;
+    for (const KnobValue& setting : measured.settings) point.settings.push_back({setting.knob, setting.value});
+  }
+  return points;
+}
+
 std::string settings_text(const std::vector<KnobValue>& settings) {
   std::string text;
   for (const KnobValue& setting : settings) text += (text.empty() ? "" : " ") + setting.knob + "=" + setting.value;

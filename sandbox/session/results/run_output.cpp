@@ -24,7 +24,8 @@ Status write_stats(const DrawnRun& run, const Options& options) {
                                       .device = run.session.device->info(),
                                       .width = run.view.width,
                                       .height = run.view.height,
-                                      .in_flight = options.in_flight};
+                                      .in_flight = options.in_flight,
+                                      .budget = run.session.renderer->budget()};
   GLOAM_TRY(make_folder_of(options.stats));
   return write_file(options.stats, stats_json(description, run.samples, counters, run.session.renderer->knobs()));
 }

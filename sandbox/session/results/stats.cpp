@@ -126,6 +126,13 @@ Json modules_json(const FrameReport& last) {
   return modules;
 }
 
+Json budget_json(const BudgetState& budget) {
+  Json settings = Json::object();
+  for (const KnobOverride& setting : budget.settings) settings[setting.name] = setting.value;
+  return {{"ms", budget.ms},           {"points", budget.points}, {"point", budget.point},
+          {"changes", budget.changes}, {"error", budget.error},   {"settings", std::move(settings)}};
+}
+
 Json knobs_json(const KnobRegistry& registry) {
   Json knobs = Json::object();
   for (const Knob& knob : registry.knobs()) {
@@ -163,6 +170,7 @@ std::string stats_json(const RunDescription& run, std::span<const FrameSample> s
   json["modules"] = modules_json(last);
   json["counters"] = counters;
   json["knobs"] = knobs_json(knobs);
+  if (run.budget) json["budget"] = budget_json(*run.budget);
   return json_text(json);
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "engine/gpu/types.h"
+#include "engine/render/governor/frame_budget.h"
 #include "engine/render/knobs/knobs.h"
 #include "sandbox/output/frame_sample.h"
 #include "sandbox/output/json_text.h"
@@ -21,12 +22,14 @@ struct RunDescription {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
   std::uint32_t in_flight = 1;  ///< frames that were unfinished at a time
+  std::optional<BudgetState> budget = {};
 };
 
 /// The JSON text of `--stats` (schema version 1). samples: all frames of the run, in order, at least one. If there are
-/// several, the times leave out the first. "in_flight" is absent if it is 1. Times of a system or pass are over the
-/// frames in which it ran; several calls of one name in a frame are added up. Counters and memory are those of the last
-/// frame, together with `extra_counters`. Figures that are not measured (bytes on the CPU) are absent.
+/// several, the times leave out the first. "in_flight" is absent if it is 1, and "budget" without one. Times of a
+/// system or pass are over the frames in which it ran; several calls of one name in a frame are added up. Counters and
+/// memory are those of the last frame, together with `extra_counters`. Figures that are not measured (bytes on the CPU)
+/// are absent.
 [[nodiscard]] std::string stats_json(const RunDescription& run, std::span<const FrameSample> samples,
                                      const std::map<std::string, double>& extra_counters, const KnobRegistry& knobs);
 

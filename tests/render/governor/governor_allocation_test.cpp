@@ -8,6 +8,8 @@
 #include <new>
 #include <vector>
 
+#include "engine/render/governor/budget_control.h"
+#include "tests/render/governor/budget_knobs.h"
 #include "tests/render/governor/machine.h"
 
 // Counts the allocations of this program. The operators are those of the whole program, so this file has one of its
@@ -46,6 +48,25 @@ TEST(GovernorAllocationTest, frames_and_budgets_allocate_nothing) {
   const std::size_t after = g_allocations;
   EXPECT_EQ(after, before);
   EXPECT_GT(changes, 50U);
+}
+
+/// Two copies of the registry, as the renderer has them: the values that were set, and those of frames.
+TEST(GovernorAllocationTest, a_change_of_point_allocates_nothing) {
+  KnobRegistry knobs = test::budget_knobs();
+  KnobRegistry drawn = knobs;
+  auto control = BudgetControl::create({.ms = 25.0, .front = test::three_points()}, knobs);
+  ASSERT_TRUE(control.ok());
+  control->apply(knobs);
+  std::size_t changes = 0;
+  const std::size_t before = g_allocations;
+  for (std::size_t frame = 0; frame < 2000; ++frame) {
+    drawn.take_values(knobs);
+    const FrameTime time = {.ms = frame / 200 % 2 == 0 ? 60.0 : 5.0, .view = frame / 200};
+    changes += control->add(time, drawn.version(), knobs).changed() ? 1 : 0;
+  }
+  const std::size_t after = g_allocations;
+  EXPECT_EQ(after, before);
+  EXPECT_GT(changes, 8U);
 }
 
 }  // namespace
