@@ -78,7 +78,10 @@ void add_machine_options(CLI::App& app, Options& options, RawTexts& raw) {
          "play, render: keep frames within a time, for example 33ms, by moving along the combinations of --ledger; "
          "knobs of --set keep their values")
       ->type_name("TIME");
-  app.add_option("--ledger", options.ledger, "The ledger of gloam cost for --budget: its folder, or its ledger.json")
+  app.add_option(
+         "--ledger", options.ledger,
+         "The ledger of gloam cost for --budget: its folder, or its ledger.json; default: SCENE.ledger.json beside "
+         "the scene, or the last one of the scene on this device")
       ->type_name("FILE");
   app.add_option("--cache-dir", options.cache_dir, "Directory for compiled pipelines and captures, kept between runs")
       ->type_name("DIR");
@@ -222,7 +225,6 @@ Status read_budget(std::string_view text, Options& options) {
   const auto read = std::from_chars(digits.data(), end, number);
   if (read.ec != std::errc() || read.ptr != end || !(number > 0.0 && number <= 1e6))
     return usage("--budget wants a time above 0 and up to 1000000 ms, such as 33ms, not '" + std::string(text) + "'");
-  if (options.ledger.empty()) return usage("--budget needs --ledger: what gloam cost has measured");
   if (options.scale_given) return usage("--budget chooses the scale: leave --scale out");
   options.budget_ms = number;
   return {};

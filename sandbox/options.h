@@ -57,7 +57,7 @@ struct Options {
   std::string config;
   std::string cache_dir;            ///< empty: compiled pipelines are not kept between runs
   std::optional<double> budget_ms;  ///< play, render: time of a frame
-  std::string ledger;               ///< play, render: file or folder of `cost`, with budget_ms
+  std::string ledger;               ///< play, render: file or folder of `cost`, with budget_ms; empty: find_ledger()
   bool validate = false;
   std::optional<PixelPosition> pick;
   bool quiet = false;

@@ -23,6 +23,7 @@
 #include "sandbox/output/work_times.h"
 #include "sandbox/session/baking/captures.h"
 #include "sandbox/session/drawing/session_costs.h"
+#include "sandbox/session/loading/kept_ledger.h"
 #include "sandbox/session/loading/scene_files.h"
 #include "sandbox/session/loading/scene_loading.h"
 #include "sandbox/session/program_knobs.h"
@@ -316,6 +317,7 @@ Status measure_scene(const CommandContext& context) {
   if (scene_files_hash(options.scene) != files)
     return Error{ErrorKind::input, options.scene + " changed while it was measured: no ledger is written; run again"};
   GLOAM_TRY(write_ledger(ledger, options.out));
+  if (const Status kept = keep_ledger(ledger, options); !kept.ok()) context.log.warning(kept.error().message);
   GLOAM_TRY(write_report(ledger, options, measured->knobs, pictures));
   context.console.print(ledger_table(ledger) + points_table(ledger));
   if (options.quiet) return {};

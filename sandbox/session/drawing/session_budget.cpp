@@ -3,28 +3,16 @@
 #include "sandbox/session/drawing/session_budget.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <string>
 #include <utility>
 
 #include "engine/core/text/formatted.h"
 #include "modules/accuracy/outputs.h"
-#include "sandbox/output/file_io.h"
 #include "sandbox/output/identity.h"
+#include "sandbox/session/loading/kept_ledger.h"
 
 namespace gloam {
 namespace {
-
-Result<Ledger> read_ledger(const std::string& path) {
-  const std::string file = std::filesystem::is_directory(path) ? path + "/ledger.json" : path;
-  const auto text = read_text_file(file, ErrorKind::input);
-  if (!text) return text.error();
-  auto ledger = parse_ledger_json(*text);
-  if (!ledger) return Error{ledger.error().kind, file + " " + ledger.error().message};
-  if (ledger->points.empty())
-    return Error{ErrorKind::input, file + " has no combinations to choose from: measure it with gloam cost --points N"};
-  return ledger;
-}
 
 /// What the ledger was measured on that differs; empty: nothing.
 std::string differences(const LedgerHeader& header, const Session& session, const Options& options) {
@@ -43,15 +31,15 @@ std::string differences(const LedgerHeader& header, const Session& session, cons
 
 Status set_budget(Session& session, const Options& options, LogSink& log) {
   if (!options.budget_ms) return {};
-  const auto ledger = read_ledger(options.ledger);
-  if (!ledger) return ledger.error();
-  if (const std::string other = differences(ledger->header, session, options); !other.empty())
-    log.warning(options.ledger + " was measured with another " + other + ": only ratios of its times are used");
-  FrameBudget budget = {.ms = *options.budget_ms, .front = front_points(*ledger)};
+  const auto found = find_ledger(session, options);
+  if (!found) return found.error();
+  if (const std::string other = differences(found->ledger.header, session, options); !other.empty())
+    log.warning(found->path + " was measured with another " + other + ": only ratios of its times are used");
+  FrameBudget budget = {.ms = *options.budget_ms, .front = front_points(found->ledger)};
   for (const std::string& assignment : options.assignments)
     budget.locked.push_back(assignment.substr(0, assignment.find('=')));
   const Status set = session.renderer->set_budget(std::move(budget));
-  return set.ok() ? set : Error{ErrorKind::input, options.ledger + ": " + set.error().message};
+  return set.ok() ? set : Error{ErrorKind::input, found->path + ": " + set.error().message};
 }
 
 std::string budget_text(const GovernorDecision& decision, const BudgetState& state) {

@@ -11,9 +11,9 @@
 
 namespace gloam {
 
-/// Sets the renderer's budget to --budget, with the combinations of --ledger to choose from; knobs of --set keep their
-/// values. Without --budget it does nothing. Warns of a ledger of another scene, device or size: it is used all the
-/// same, because only ratios of its times count. Input error for a file that is no ledger, or that has no combinations.
+/// Sets the renderer's budget to --budget, with the combinations of find_ledger() to choose from; knobs of --set keep
+/// their values. Without --budget it does nothing. Warns of a ledger of another scene, device or size: it is used all
+/// the same, because only ratios of its times count.
 [[nodiscard]] Status set_budget(Session& session, const Options& options, LogSink& log);
 
 /// Why the budget has moved, in a line: "over budget: 41.2 ms, 33 wanted; now setting 3 of 8, about 29.6 ms, error

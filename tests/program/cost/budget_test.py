@@ -3,6 +3,7 @@
 """Tests `render --budget`. Needs a Vulkan device. The budgets are so wide or so narrow that no machine decides otherwise."""
 import json
 
+from gltf_scene import GltfScene
 from program_case import ProgramCase, main
 
 RENDER = ("render", "builtin:plain", "--size", "64x36", "--frames", "40", "--out", "x.png", "--stats", "s.json")
@@ -43,6 +44,25 @@ class Budget(ProgramCase):
     def stats(self):
         self.expect(0, *RENDER)
         return self.read_json("s.json")
+
+    def test_the_ledger_is_found_beside_the_scene_and_in_the_cache(self):
+        cache = ("--cache-dir", "cache")
+        say = self.expect(2, *RENDER, "--budget", "9", *cache, says="gloam cost builtin:plain --quick --out DIR")
+        self.assertNotIn("warning", say.stderr)
+        self.expect(0, "cost", "builtin:plain", "--quick", "--size", "64x36", "--knobs", "views.scale", "--points", "3", "--out", "m", *cache)
+        measured = len(self.read_json("m/ledger.json")["points"])
+        stats, told = self.budget("--budget", "100000", *cache)
+        self.assertEqual((stats["budget"]["error"], told), (0.0, ""))
+        self.assertLessEqual(stats["budget"]["points"], measured)
+        # Another scene takes what there is, with a warning, until a ledger lies beside it.
+        scene = GltfScene()
+        scene.node(mesh=scene.card(scene.material(), half=1.0))
+        (self.folder / "card.gltf").write_text(scene.text())
+        draw = ("render", "card.gltf", "--size", "64x36", "--out", "x.png", "--stats", "s.json", "--budget", "100000", *cache)
+        self.assertIn("another scene builtin:plain", self.expect(0, *draw).stderr)
+        self.write_ledger("card.ledger.json", self.read_json("l/ledger.json"))
+        self.assertIn("card.ledger.json was measured", self.expect(0, *draw).stderr)
+        self.assertEqual(self.read_json("s.json")["budget"]["points"], 3)
 
     def test_knobs_of_set_keep_their_values(self):
         stats, _ = self.budget("--budget", "0.001", "--ledger", "l", "--set", "shadows.mode=monolithic")

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: The gloam authors
 # SPDX-License-Identifier: MIT
-"""Stars of `cost` are the same whenever it is run, also beside processes that keep all cores busy. Needs a Vulkan device. In
-the short form two runs of three knobs; with GLOAM_LONG_TESTS five runs of six.
+"""Stars of values whose times differ clearly are the same whenever `cost` is run, also beside processes that keep all cores
+busy. Needs a Vulkan device. In the short form two runs of three knobs; with GLOAM_LONG_TESTS five runs of six.
 
 Ratios have 95 % intervals. For two sides that are the same frame they must hold 1 as often as they say. For others the test
 prints how many pairs of runs disagree: a virtual processor's speed at different kinds of work changes from run to run, and
@@ -64,8 +64,9 @@ class CostStars(ProgramCase):
         spread = {key: max(run[key]["ratio"] for run in runs) / min(run[key]["ratio"] for run in runs) for key in timed}
         print(f"{RUNS} runs, {len(timed)} values, {len(comparisons)} comparisons, {len(apart)} intervals apart; greatest spread of "
               f"a ratio {max(spread.values()):.3f} of {max(spread, key=spread.get)}; stars {sorted(stars[0])}")
+        # Values of SAME's knob save about as much as the noise: whether that is significant is a matter of chance.
         for other in stars[1:]:
-            self.assertEqual(sorted(stars[0] ^ other), [], "stars that flipped")
+            self.assertEqual(sorted(key for key in stars[0] ^ other if key[0] != SAME[0]), [], "stars that flipped")
         same = [run[SAME] for run in runs]
         for row in same:
             self.assertGreater(row["pairs"], 0)

@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "sandbox/session/loading/kept_ledger.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "engine/core/hash.h"
+#include "engine/core/text/formatted.h"
+#include "sandbox/output/file_io.h"
+#include "sandbox/output/identity.h"
+
+namespace gloam {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string device_folder(const Options& options, const std::string& device) {
+  return options.cache_dir + "/ledgers/" +
+         formatted("%016llx", static_cast<unsigned long long>(Hasher().text(device).digest()));
+}
+
+Result<LedgerFile> read_ledger(const std::string& path) {
+  const auto text = read_text_file(path, ErrorKind::input);
+  if (!text) return text.error();
+  auto ledger = parse_ledger_json(*text);
+  if (!ledger) return Error{ledger.error().kind, path + " " + ledger.error().message};
+  if (ledger->points.empty())
+    return Error{ErrorKind::input, path + " has no combinations to choose from: measure it with gloam cost --points N"};
+  return LedgerFile{std::move(ledger).value(), path};
+}
+
+bool exists(const std::string& path) {
+  std::error_code fault;
+  return !path.empty() && fs::is_regular_file(path, fault);
+}
+
+/// The file in the folder that was written last; empty: there is none.
+std::string newest_in(const std::string& folder) {
+  std::vector<std::pair<fs::file_time_type, std::string>> files;
+  std::error_code fault;
+  for (fs::directory_iterator entry(folder, fault), end; !fault && entry != end; entry.increment(fault)) {
+    std::error_code unknown;
+    const auto written = entry->last_write_time(unknown);
+    if (!unknown && entry->path().extension() == ".json") files.emplace_back(written, entry->path().string());
+  }
+  return files.empty() ? std::string() : std::ranges::max_element(files)->second;
+}
+
+}  // namespace
+
+std::string ledger_beside(const std::string& scene) {
+  if (scene.starts_with("builtin:")) return {};
+  return fs::path(scene).replace_extension(".ledger.json").string();
+}
+
+Status keep_ledger(const Ledger& ledger, const Options& options) {
+  if (options.cache_dir.empty() || ledger.points.empty()) return {};
+  const std::string path = device_folder(options, ledger.header.device) + "/" + ledger.header.scene_hash + ".json";
+  GLOAM_TRY(make_folder_of(path));
+  return write_file(path, ledger_json(ledger));
+}
+
+Result<LedgerFile> find_ledger(const Session& session, const Options& options) {
+  if (!options.ledger.empty()) {
+    std::error_code fault;
+    const bool folder = fs::is_directory(options.ledger, fault);
+    return read_ledger(folder ? options.ledger + "/ledger.json" : options.ledger);
+  }
+  if (const std::string beside = ledger_beside(options.scene); exists(beside)) return read_ledger(beside);
+  if (!options.cache_dir.empty()) {
+    const std::string folder = device_folder(options, session.device->info().name);
+    const std::string own = folder + "/" + scene_hash(options.scene, session.world) + ".json";
+    if (exists(own)) return read_ledger(own);
+    if (const std::string other = newest_in(folder); !other.empty()) return read_ledger(other);
+  }
+  return Error{ErrorKind::usage, "--budget needs a ledger of this device: measure one with gloam cost " +
+                                     options.scene + " --quick --out DIR, or name one with --ledger"};
+}
+
+}  // namespace gloam

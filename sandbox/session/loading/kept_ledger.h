@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "engine/core/result.h"
+#include "modules/accuracy/outputs.h"
+#include "sandbox/options.h"
+#include "sandbox/session/session.h"
+
+namespace gloam {
+
+/// The ledger beside a scene file: "scenes/courtyard.ledger.json" for "scenes/courtyard.gltf". Empty for a built-in
+/// scene.
+[[nodiscard]] std::string ledger_beside(const std::string& scene);
+
+/// Keeps a ledger with combinations in the cache, for its scene and device; does nothing without a cache.
+[[nodiscard]] Status keep_ledger(const Ledger& ledger, const Options& options);
+
+struct LedgerFile {
+  Ledger ledger;
+  std::string path;
+};
+
+/// The ledger to choose combinations from: that of --ledger (a file, or the folder that `cost` has written); else the
+/// one beside the scene; else the one in the cache for this scene and device; else any in the cache of this device. A
+/// usage error says how to measure one if there is none. Input error for a file that is no ledger or has no
+/// combinations.
+[[nodiscard]] Result<LedgerFile> find_ledger(const Session& session, const Options& options);
+
+}  // namespace gloam
