@@ -18,6 +18,9 @@ struct FrameSample {
   std::uint64_t previous_end_ns = 0;  ///< end_ns of the frame before it in the run; 0: none
   FrameReport report;                 ///< complete: the GPU times and counters are of this frame
   std::vector<Zone> zones;            ///< CPU zones of the frame
+  /// Only of frames that were waited for on a device that is a processor (Session::render_frame): processor time of the
+  /// process over the frame, divided by the cores. Other processes hardly change it.
+  double processor_ms = 0.0;
 
   /// Time for which this was the oldest unfinished frame. With one frame in flight it is the time from begin to end.
   /// With more, it is the time from frame to frame.

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <utility>
 
+#include "engine/core/processor_time.h"
 #include "engine/gpu/vulkan_device.h"
 #include "engine/scene/resources.h"
 #include "engine/scene/systems.h"
@@ -51,11 +52,15 @@ ViewSettings Session::view_settings(std::uint32_t width, std::uint32_t height, c
 void Session::set_clock(double time_s, double dt_s) { world.resource<SceneClock>() = {.time_s = time_s, .dt_s = dt_s}; }
 
 Result<FrameSample> Session::render_frame(const ViewRequest& request) {
+  const double begin_ms = processor_time_ms();
   FrameRun run(*this, 1);
   GLOAM_TRY(run.draw(request));
   auto samples = run.finish();
   if (!samples) return samples.error();
-  return std::move(samples->front());
+  FrameSample sample = std::move(samples->front());
+  if (device->info().type == gpu::DeviceType::cpu)
+    sample.processor_ms = (processor_time_ms() - begin_ms) / usable_cores();
+  return sample;
 }
 
 Status Session::check_validation() const {

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "engine/core/hash.h"
-#include "engine/core/processor_time.h"
 #include "sandbox/bench/harness/benches.h"
 #include "sandbox/bench/harness/context.h"
 #include "sandbox/bench/harness/measure.h"
@@ -35,24 +34,18 @@ constexpr int kSizeRounds = 3;
 constexpr std::uint32_t kFramesASize = 5;
 constexpr std::uint32_t kUncounted = 2;  ///< first frames of a size: images are made, lists find their length
 
-/// Time of a frame. On the wall, a device that is a processor would show how its threads wait in small dispatches, too.
-Result<double> frame_ms(Session& session, const ViewRequest& request) {
-  const double begin_ms = processor_time_ms();
-  const auto sample = session.render_frame(request);
-  if (!sample) return sample.error();
-  if (session.device->info().type == gpu::DeviceType::cpu) return (processor_time_ms() - begin_ms) / usable_cores();
-  return sample->report.gpu_ms;
-}
-
-/// Median time of a frame over its pixels.
+/// Median time of a frame over its pixels. On the wall, a device that is a processor would show how its threads wait in
+/// small dispatches, too.
 Result<double> ns_per_pixel(Session& session, const Options& options, std::array<std::uint32_t, 2> size) {
   const ViewRequest request{session.view_settings(size[0], size[1], "none"), {}};
   std::vector<double> times;
   for (std::uint32_t frame = 0; frame < kFramesASize; ++frame) {
     session.set_clock(options.time_s + frame * options.dt_s, options.dt_s);
-    const auto ms = frame_ms(session, request);
-    if (!ms) return ms.error();
-    if (frame >= kUncounted) times.push_back(*ms * kNsPerMs / (double{1} * size[0] * size[1]));
+    const auto sample = session.render_frame(request);
+    if (!sample) return sample.error();
+    if (frame < kUncounted) continue;
+    const double ms = sample->processor_ms > 0.0 ? sample->processor_ms : sample->report.gpu_ms;
+    times.push_back(ms * kNsPerMs / (double{1} * size[0] * size[1]));
   }
   std::ranges::sort(times);
   return times[times.size() / 2];

@@ -4,7 +4,6 @@
 
 #include <utility>
 
-#include "engine/core/processor_time.h"
 #include "sandbox/session/drawing/enlarged.h"
 #include "sandbox/session/drawing/frame_tracing.h"
 #include "sandbox/session/program_knobs.h"
@@ -63,14 +62,13 @@ Result<FrameCost> SessionCosts::draw(std::int32_t index) {
   request_.settings.height = scaled_size(options_.height, scale);
   // What frames keep from those before them must not be of another value of a knob.
   request_.settings.camera_cut = index != index_ && index != index_ + 1;
-  const double begin_ms = processor_time_ms();
   const auto sample = session_.render_frame(request_);
   if (!sample) return sample.error();
   index_ = index;
-  FrameCost cost = {.cpu_ms = sample->report.cpu_ms, .gpu_ms = sample->report.gpu_ms, .modules = module_costs(*sample)};
-  if (session_.device->info().type == gpu::DeviceType::cpu)
-    cost.processor_ms = (processor_time_ms() - begin_ms) / usable_cores();
-  return cost;
+  return FrameCost{.cpu_ms = sample->report.cpu_ms,
+                   .gpu_ms = sample->report.gpu_ms,
+                   .processor_ms = sample->processor_ms,
+                   .modules = module_costs(*sample)};
 }
 
 Result<std::uint64_t> SessionCosts::gpu_bytes() {

@@ -12,6 +12,7 @@
 #include "engine/core/text/formatted.h"
 #include "sandbox/output/file_io.h"
 #include "sandbox/output/identity.h"
+#include "sandbox/session/loading/scene_loading.h"
 
 namespace gloam {
 namespace {
@@ -53,7 +54,7 @@ std::string newest_in(const std::string& folder) {
 }  // namespace
 
 std::string ledger_beside(const std::string& scene) {
-  if (scene.starts_with("builtin:")) return {};
+  if (is_builtin(scene)) return {};
   return fs::path(scene).replace_extension(".ledger.json").string();
 }
 
