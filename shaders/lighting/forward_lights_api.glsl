@@ -60,6 +60,7 @@ vec3 response_to(ShadingPoint p, vec3 to_light, vec3 illuminance, float half_ang
 #endif
 }
 
+// Radiance from a local light.
 vec3 forward_light(ShadingPoint p, uint index, LocalLight light) {
   vec3 to_light;
   vec3 illuminance = local_illuminance(light, p.position, to_light);
@@ -67,8 +68,6 @@ vec3 forward_light(ShadingPoint p, uint index, LocalLight light) {
   return response_to(p, to_light, illuminance, half_angle_of(index, light.position - p.position));
 }
 
-// Radiance from local lights, summed in ascending order: versions that leave out only lights that do not reach the
-// point get bit-identical sums.
 #ifdef GLOAM_FORWARD_TILED
 #define GLOAM_Z_BINS_BINDING (GLOAM_FORWARD_BINDING + 4)
 #include "shaders/lights/z_bins_api.glsl"
@@ -77,6 +76,85 @@ layout(set = 0, binding = GLOAM_FORWARD_BINDING + 2, scalar) uniform Grid { Ligh
 layout(set = 0, binding = GLOAM_FORWARD_BINDING + 3) uniform sampler2D light_texels;
 layout(set = 0, binding = GLOAM_FORWARD_BINDING + 5, scalar) readonly buffer MaskTiles { uint mask_tiles[]; };
 
+LocalLight forward_local(uint index) { return fetch_light(light_texels, index); }
+#else
+LocalLight forward_local(uint index) { return lights.local[index]; }
+#endif
+
+uint lowest_bit(uint bits) { return bits & (~bits + 1u); }
+uint lowest_light(uint word, uint bits) { return word * 32u + uint(findLSB(bits)); }
+
+#ifdef GLOAM_FORWARD_SHADOWS
+// Software devices execute a loop's whole body while any of their threads is in the loop, and the filter for each light
+// that one of them visits. So lights are sorted first, in loops of short bodies: each thread then visits only those
+// that it needs. The loops test their condition at the end, see shaders/shadows/filter/space.glsl.
+
+// Of these lights of a mask word, those that reach the point.
+uint reaching_lights(ShadingPoint p, uint word, uint bits) {
+  uint found = 0u;
+  if (bits != 0u) do {
+      vec3 to_light;
+      vec3 illuminance = local_illuminance(forward_local(lowest_light(word, bits)), p.position, to_light);
+      found |= gives_light(illuminance, p.normal, to_light) ? lowest_bit(bits) : 0u;
+      bits &= bits - 1u;
+    } while (bits != 0u);
+  return found;
+}
+
+// Of the lights that reach the point, x: those that are visible, y: those whose visibility the filter must find.
+uvec2 certain_lights(ShadingPoint p, uint word, uint bits) {
+  if (!kCertainBeforeFilter) return uvec2(0u, bits);
+  uvec2 found = uvec2(0u);
+  if (bits != 0u) do {
+      uint index = lowest_light(word, bits);
+      LocalLight light = forward_local(index);
+      float share = certain_local_visibility(index, light.position, receiver);
+      bool behind = kTransmission != 0u && dot(p.normal, light.position - p.position) <= 0.0;
+      found.x |= share == 1.0 && !behind ? lowest_bit(bits) : 0u;
+      found.y |= share < 0.0 || behind ? lowest_bit(bits) : 0u;
+      bits &= bits - 1u;
+    } while (bits != 0u);
+  return found;
+}
+
+// Radiance from a local light that the point sees.
+vec3 unshadowed_light(ShadingPoint p, uint index, LocalLight light) {
+  vec3 to_light;
+  vec3 illuminance = local_illuminance(light, p.position, to_light);
+  illuminance = through_cookie(illuminance, index, light.position);
+  return response_to(p, to_light, illuminance, half_angle_of(index, light.position - p.position));
+}
+
+// Radiance from these lights of a mask word.
+vec3 forward_word(ShadingPoint p, uint word, uint bits) {
+  uvec2 sorted = certain_lights(p, word, reaching_lights(p, word, bits));
+  vec3 sum = vec3(0.0);
+  if (sorted.x != 0u) do {
+      uint index = lowest_light(word, sorted.x);
+      sum += unshadowed_light(p, index, forward_local(index));
+      sorted.x &= sorted.x - 1u;
+    } while (sorted.x != 0u);
+  if (sorted.y != 0u) do {
+      uint index = lowest_light(word, sorted.y);
+      sum += forward_light(p, index, forward_local(index));
+      sorted.y &= sorted.y - 1u;
+    } while (sorted.y != 0u);
+  return sum;
+}
+#else
+vec3 forward_word(ShadingPoint p, uint word, uint bits) {
+  vec3 sum = vec3(0.0);
+  for (; bits != 0u; bits &= bits - 1u) {
+    uint index = lowest_light(word, bits);
+    sum += forward_light(p, index, forward_local(index));
+  }
+  return sum;
+}
+#endif
+
+// Radiance from local lights, summed by mask words, in an order within each word that depends only on the lights that
+// reach the point: versions that leave out other lights get bit-identical sums.
+#ifdef GLOAM_FORWARD_TILED
 vec3 forward_local_lights(ShadingPoint p, uvec2 pixel) {
   vec3 sum = vec3(0.0);
   float depth_m = view_depth(view, p.position);
@@ -86,17 +164,15 @@ vec3 forward_local_lights(ShadingPoint p, uvec2 pixel) {
   uint words = range.x < range.y ? z_bin_bits(uvec2(range.x >> 5, (range.y + 31u) >> 5), 0u) : 0u;
   for (uint groups = mask_tiles[mask] & words; groups != 0u; groups &= groups - 1u) {
     uint word = uint(findLSB(groups));
-    for (uint bits = mask_tiles[mask + 1u + word] & z_bin_bits(range, word); bits != 0u; bits &= bits - 1u) {
-      uint index = word * 32u + uint(findLSB(bits));
-      sum += forward_light(p, index, fetch_light(light_texels, index));
-    }
+    sum += forward_word(p, word, mask_tiles[mask + 1u + word] & z_bin_bits(range, word));
   }
   return sum;
 }
 #else
 vec3 forward_local_lights(ShadingPoint p, uvec2 pixel) {
   vec3 sum = vec3(0.0);
-  for (uint i = 0u; i < lights.local_count; ++i) sum += forward_light(p, i, lights.local[i]);
+  for (uint first = 0u; first < lights.local_count; first += 32u)
+    sum += forward_word(p, first >> 5u, ~0u >> (32u - min(lights.local_count - first, 32u)));
   return sum;
 }
 #endif

@@ -159,6 +159,22 @@ float shadow_share(ShadowPoint p, float extinction_m) {
   return share;
 }
 
+// Whether some receivers' visibility is certain before the filter runs, by the nearest and farthest depths around them.
+const bool kCertainBeforeFilter = (kFilter == 2u || kFilter == 3u) && kFullPenumbra == 0u;
+
+// local_visibility() where that is certain, 0 or 1; otherwise −1. For filters with kCertainBeforeFilter only, and for
+// light that does not come through the surface.
+float certain_local_visibility(uint light, vec3 light_position, ShadowReceiver r) {
+  ShadowPoint p = local_shadow_point(light, light_position, r);
+  float share = 1.0;
+  if (p.live) do {
+      SearchRegion region = find_region(p);
+      share = region.nearest > p.threshold ? -1.0 : p.horizon < 1.0 ? -1.0 : 1.0;
+      if (kFilter == 3u) share = surely_unlit(p, region) ? 0.0 : share;
+    } while (never(p));
+  return p.horizon > 0.0 ? share : 0.0;
+}
+
 // Quantised share 0 … 1 of a local light of the view; 1 for one that casts no shadows.
 float local_visibility(uint light, vec3 light_position, ShadowReceiver r, float extinction_m) {
   if (kFilter == 5u) return 1.0;

@@ -199,6 +199,12 @@ float filtered_visibility(ShadowPoint p, float width) {
   return width < 0.0 ? near : 1.0 - share;
 }
 
+// Whether all of the region blocks.
+bool surely_unlit(ShadowPoint p, SearchRegion region) {
+  float slope = slope_per_texel(p) * (0.5 * region.width + 2.0);
+  return region.farthest > p.threshold + slope && kFullPenumbra == 0u;
+}
+
 // Whether a receiver's visibility is known without the filter. If so, it is `visibility`; otherwise
 // filtered_visibility() gives it, for a penumbra of `width`.
 bool known_before_filter(ShadowPoint p, out float visibility, out float width) {
@@ -206,8 +212,7 @@ bool known_before_filter(ShadowPoint p, out float visibility, out float width) {
   if (p.live) do {
       region = find_region(p);
     } while (never(p));
-  float slope = slope_per_texel(p) * (0.5 * region.width + 2.0);
-  bool unlit = region.farthest > p.threshold + slope && kFullPenumbra == 0u;
+  bool unlit = surely_unlit(p, region);
   bool unsure = region.nearest > p.threshold || kFullPenumbra != 0u;
   visibility = unlit && p.live ? 0.0 : 1.0;
   width = 0.0;
