@@ -40,26 +40,28 @@ Status Renderer::check_visualizer(const World& world, std::string_view name) con
 
 Status Renderer::set_budget(FrameBudget budget) {
   parts_->check_idle("set_budget");
-  auto control = BudgetControl::create(std::move(budget), knobs());
-  if (!control.ok()) return control.error();
-  parts_->budget.emplace(std::move(control).value());
-  parts_->budget->apply(knobs());
-  return {};
+  std::vector<std::string> effects;
+  for (const auto& module : modules()) effects.emplace_back(module->name());
+  return parts_->budgets.set(std::move(budget), effects, knobs());
 }
 
-void Renderer::clear_budget() { parts_->budget.reset(); }
+void Renderer::clear_budget(std::string_view effect) { parts_->budgets.clear(effect); }
 
 std::optional<GovernorDecision> Renderer::add_frame_time(const FrameTime& time) {
   parts_->check_idle("add_frame_time");
-  if (!parts_->budget) return std::nullopt;
+  BudgetControl* control = parts_->budgets.find(time.effect);
+  if (control == nullptr) return std::nullopt;
   FrameTime own = time;
   own.judged = own.judged && parts_->last_frame.assets_pending == 0;
-  return parts_->budget->add(own, parts_->knobs.drawn_version, knobs());
+  return control->add(own, parts_->knobs.drawn_version, knobs());
 }
 
-std::optional<BudgetState> Renderer::budget() const {
-  return parts_->budget ? std::optional(parts_->budget->state()) : std::nullopt;
+std::optional<BudgetState> Renderer::budget(std::string_view effect) const {
+  const BudgetControl* control = parts_->budgets.find(effect);
+  return control != nullptr ? std::optional(control->state()) : std::nullopt;
 }
+
+std::vector<BudgetState> Renderer::budgets() const { return parts_->budgets.states(); }
 
 void Renderer::prepare_world(World& world) const {
   parts_->check_idle("prepare_world");

@@ -41,18 +41,22 @@ class Renderer {
   /// unknown name it lists the valid ones.
   [[nodiscard]] Status check_visualizer(const World& world, std::string_view name) const;
 
-  /// From now on the renderer chooses among measured settings so that frames stay within a time: after each frame that
-  /// add_frame_time() tells of, it may set the knobs that the front's points name to another point. Replaces an earlier
-  /// budget. Usage error if the time is not above 0, or if a setting or a locked knob does not exist; then nothing
+  /// From now on the renderer chooses among measured settings so that whole frames, or the passes of one effect, stay
+  /// within a time: after each frame that add_frame_time() tells of, it may set the knobs that the front's points name
+  /// to another point. Replaces an earlier budget of the same effect. Usage error if the time is not above 0, if a
+  /// setting, a locked knob or the effect does not exist, or if another budget sets one of the knobs; then nothing
   /// changes. With Readiness::background, a change waits until its pipelines are ready.
   [[nodiscard]] Status set_budget(FrameBudget budget);
-  /// Ends it. The knobs keep the values that they have.
-  void clear_budget();
-  /// How long the last frame took, for the budget; call it once a frame. Returns what was decided; nothing without a
-  /// budget. Frames that were drawn before a change has taken effect, and the first after it, are not judged.
+  /// Ends the budget of an effect; empty: that of whole frames. The knobs keep the values that they have.
+  void clear_budget(std::string_view effect = {});
+  /// How long the last frame, or an effect in it, took, for the budget of the same effect; call it once a frame for
+  /// each budget. Returns what was decided; nothing without such a budget. Frames that were drawn before a change has
+  /// taken effect, and the first after it, are not judged.
   std::optional<GovernorDecision> add_frame_time(const FrameTime& time);
-  /// None without a budget.
-  [[nodiscard]] std::optional<BudgetState> budget() const;
+  /// None without such a budget.
+  [[nodiscard]] std::optional<BudgetState> budget(std::string_view effect = {}) const;
+  /// Of all budgets, in the order in which they were first set.
+  [[nodiscard]] std::vector<BudgetState> budgets() const;
 
   /// Registers the components and resources of the scene and of every module. What the world already holds stays as it
   /// is. A world that is prepared again is released. One renderer at a time draws a world: the one that has prepared

@@ -6,7 +6,7 @@
 
 #include "engine/core/once_log.h"
 #include "engine/gpu/device.h"
-#include "engine/render/governor/budget_control.h"
+#include "engine/render/governor/budgets.h"
 #include "engine/render/modules_in_use/knobs_in_use.h"
 #include "engine/render/modules_in_use/module_set.h"
 #include "engine/render/renderer_options.h"
@@ -35,7 +35,7 @@ struct RendererParts {
   gpu::DeviceUser device_user;
   OnceLog once;  ///< warnings to options.log
   KnobsInUse knobs;
-  std::optional<BudgetControl> budget;
+  Budgets budgets;
   Schedule schedule;
   FrameResources resources;
   ModuleSet modules;

@@ -37,6 +37,8 @@ Result<BudgetControl> BudgetControl::create(FrameBudget budget, const KnobRegist
   for (const FrontPoint& point : front) points.push_back({point.ms, point.error});
   BudgetControl control(std::move(front), Governor(points, budget.ms));
   GLOAM_TRY(control.resolve(budget.locked, knobs));
+  control.effect_ = std::move(budget.effect);
+  control.locked_ = std::move(budget.locked);
   return control;
 }
 
@@ -44,7 +46,9 @@ Status BudgetControl::resolve(const std::vector<std::string>& locked, const Knob
   for (std::size_t i = 0; i < knobs.knobs().size(); ++i) {
     const std::string& name = knobs.knobs()[i].name;
     const bool named = std::ranges::any_of(front_, [&](const FrontPoint& point) { return names(point, name); });
-    if (named && std::ranges::find(locked, name) == locked.end()) governed_.push_back(i);
+    if (!named || std::ranges::find(locked, name) != locked.end()) continue;
+    governed_.push_back(i);
+    governed_names_.push_back(name);
   }
   for (const FrontPoint& point : front_) {
     KnobRegistry values = knobs;
@@ -77,15 +81,31 @@ GovernorDecision BudgetControl::add(const FrameTime& time, std::uint64_t drawn_v
   return decision;
 }
 
+const std::string* BudgetControl::shared_knob(const BudgetControl& other) const {
+  const auto found = std::ranges::find_first_of(governed_names_, other.governed_names_);
+  return found == governed_names_.end() ? nullptr : &*found;
+}
+
+BudgetStep BudgetControl::step_to(std::size_t point) const {
+  return {.ms = governor_.expected_ms(point), .error = front_[point].error, .settings = front_[point].settings};
+}
+
 BudgetState BudgetControl::state() const {
-  const FrontPoint& point = front_[governor_.point()];
-  return {.ms = governor_.budget_ms(),
+  const std::size_t at = governor_.point();
+  const FrontPoint& point = front_[at];
+  return {.effect = effect_,
+          .ms = governor_.budget_ms(),
           .points = front_.size(),
-          .point = governor_.point(),
+          .point = at,
           .changes = changes_,
           .error = point.error,
           .settings = point.settings,
-          .last_change = last_change_};
+          .last_change = last_change_,
+          .measured_ms = governor_.measured_ms(),
+          .cheaper = at > 0 ? std::optional(step_to(at - 1)) : std::nullopt,
+          .better = at + 1 < front_.size() ? std::optional(step_to(at + 1)) : std::nullopt,
+          .governed = governed_names_,
+          .locked = locked_};
 }
 
 }  // namespace gloam

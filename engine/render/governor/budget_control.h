@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "engine/core/result.h"
@@ -29,16 +30,23 @@ class BudgetControl {
   /// with. After a change the knobs have the new point's values. Allocates nothing.
   GovernorDecision add(const FrameTime& time, std::uint64_t drawn_version, KnobRegistry& knobs);
   [[nodiscard]] BudgetState state() const;
+  [[nodiscard]] const std::string& effect() const { return effect_; }
+  /// A knob that both budgets set; nullptr if there is none.
+  [[nodiscard]] const std::string* shared_knob(const BudgetControl& other) const;
 
  private:
   BudgetControl(std::vector<FrontPoint> front, const Governor& governor)
       : front_(std::move(front)), governor_(governor) {}
+  [[nodiscard]] BudgetStep step_to(std::size_t point) const;
   /// Finds the knobs that points set, and their numbers in each point.
   [[nodiscard]] Status resolve(const std::vector<std::string>& locked, const KnobRegistry& knobs);
 
+  std::string effect_;
+  std::vector<std::string> locked_;
   std::vector<FrontPoint> front_;      ///< the fastest first, each more right than all before it
   std::vector<std::size_t> governed_;  ///< indices into KnobRegistry::knobs()
-  std::vector<double> numbers_;        ///< of the governed knobs, point by point
+  std::vector<std::string> governed_names_;
+  std::vector<double> numbers_;  ///< of the governed knobs, point by point
   Governor governor_;
   std::uint32_t frames_here_ = 0;  ///< drawn with the point in use
   std::size_t changes_ = 0;

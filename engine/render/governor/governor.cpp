@@ -71,6 +71,16 @@ void Governor::set_budget(double budget_ms) {
   said_cannot_fit_ = false;
 }
 
+double Governor::measured_ms() const { return times_.size() == 0 ? 0.0 : times_.percentile_90(times_.size()); }
+
+double Governor::expected_ms(std::size_t point) const {
+  GLOAM_ASSERT(point < points_.size(), "expected_ms() wants a point of the front");
+  const double ms = points_[point].ms, measured = measured_ms();
+  if (measured == 0.0) return ms;
+  const double scale = measured / points_[point_].ms;
+  return ms * (point > point_ ? scale_at(point, scale) : scale);
+}
+
 GovernorDecision Governor::add(const GovernorFrame& frame) {
   if (points_.empty()) return stay(GovernorReason::none, 0.0);
   const bool is_new = note_frame(frame);

@@ -108,6 +108,10 @@ class Governor {
   [[nodiscard]] double budget_ms() const { return budget_ms_; }
   /// Index of the point that the next frame is to be drawn with; 0 for an empty front.
   [[nodiscard]] std::size_t point() const { return point_; }
+  /// 90th percentile of the last frames that were judged at point(); 0 if there are none.
+  [[nodiscard]] double measured_ms() const;
+  /// The 90th percentile to expect at a point of the front by these frames; without any, the front's own time.
+  [[nodiscard]] double expected_ms(std::size_t point) const;
   /// Adds a frame that was drawn with point() and decides about the next one.
   GovernorDecision add(const GovernorFrame& frame);
 

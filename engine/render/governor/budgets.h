@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/render/governor/budget_control.h"
+#include "engine/render/governor/frame_budget.h"
+#include "engine/render/knobs/knobs.h"
+
+namespace gloam {
+
+/// The budgets of whole frames and of single effects, in the order in which they were first set. No two set one knob.
+class Budgets {
+ public:
+  /// Sets or replaces the budget of its effect, and the knobs to the point that it starts with. effects: the valid
+  /// names beside the empty one. Usage error as of Renderer::set_budget; then nothing has changed.
+  [[nodiscard]] Status set(FrameBudget budget, std::span<const std::string> effects, KnobRegistry& knobs);
+  void clear(std::string_view effect);
+  /// nullptr without a budget of this effect.
+  [[nodiscard]] BudgetControl* find(std::string_view effect);
+  [[nodiscard]] std::vector<BudgetState> states() const;
+
+ private:
+  std::vector<BudgetControl> controls_;
+};
+
+}  // namespace gloam
