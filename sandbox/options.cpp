@@ -33,7 +33,7 @@ struct RawTexts {
   std::optional<std::string> scale;
   std::optional<std::string> time;
   std::optional<std::string> dt;
-  std::optional<std::string> budget;
+  std::vector<std::string> budgets;
   std::optional<std::string> shard;
   std::optional<std::string> minutes;
   bool version = false;
@@ -73,15 +73,17 @@ void add_machine_options(CLI::App& app, Options& options, RawTexts& raw) {
   app.add_option("--trace", options.trace, "Write a Chrome trace of systems and passes")->type_name("FILE");
   app.add_option("--device", options.device, "Vulkan device: auto, cpu, gpu, or part of its name")->type_name("DEVICE");
   app.add_option("--threads", options.threads, "Number of job threads (default 0: one per core)")->type_name("N");
-  app.add_option(
-         "--budget", raw.budget,
-         "play, render: keep frames within a time, for example 33ms, by moving along the combinations of --ledger; "
-         "knobs of --set keep their values")
-      ->type_name("TIME");
+  app.add_option("--budget", raw.budgets,
+                 "Keep frames within a time, for example 33ms, or the passes of one effect, for example "
+                 "reflections=5ms, by moving along the settings of --ledger; may be given several times; knobs of "
+                 "--set keep their values (play, render, bench governor)")
+      ->type_name("[EFFECT=]TIME")
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_option(
          "--ledger", options.ledger,
          "The ledger of gloam cost for --budget: its folder, or its ledger.json; default: SCENE.ledger.json beside "
-         "the scene, or the last one of the scene on this device")
+         "the scene, or the last one of the scene on this device; play measures a short one if there is none")
       ->type_name("FILE");
   app.add_option("--cache-dir", options.cache_dir, "Directory for compiled pipelines and captures, kept between runs")
       ->type_name("DIR");
@@ -213,11 +215,7 @@ Status read_minutes(std::string_view text, std::optional<double>& minutes) {
   return {};
 }
 
-Status read_budget(std::string_view text, Options& options) {
-  const bool draws = options.command == Command::play || options.command == Command::render;
-  if (!draws) return usage("--budget is of play and render");
-  if (text.find('=') != std::string_view::npos)
-    return usage("--budget wants the time of a whole frame, such as 33ms: a budget of one effect is not built yet");
+Result<double> read_budget_ms(std::string_view text) {
   std::string_view digits = text;
   if (digits.ends_with("ms")) digits.remove_suffix(2);
   double number = 0.0;
@@ -225,8 +223,35 @@ Status read_budget(std::string_view text, Options& options) {
   const auto read = std::from_chars(digits.data(), end, number);
   if (read.ec != std::errc() || read.ptr != end || !(number > 0.0 && number <= 1e6))
     return usage("--budget wants a time above 0 and up to 1000000 ms, such as 33ms, not '" + std::string(text) + "'");
-  if (options.scale_given) return usage("--budget chooses the scale: leave --scale out");
-  options.budget_ms = number;
+  return number;
+}
+
+Status read_budget(std::string_view text, Options& options) {
+  const std::size_t equals = text.find('=');
+  const auto ms = read_budget_ms(equals == std::string_view::npos ? text : text.substr(equals + 1));
+  if (!ms) return ms.error();
+  if (equals == std::string_view::npos) {
+    if (options.budget_ms) return usage("--budget gives frames two times");
+    if (options.scale_given) return usage("--budget chooses the scale: leave --scale out");
+    options.budget_ms = *ms;
+    return {};
+  }
+  const std::string effect(text.substr(0, equals));
+  if (options.command == Command::bench) return usage("bench takes --budget TIME only, without an effect");
+  if (effect.empty()) return usage("--budget wants TIME or EFFECT=TIME, not '" + std::string(text) + "'");
+  if (std::ranges::find(options.effect_budgets, effect, &EffectBudget::effect) != options.effect_budgets.end())
+    return usage("--budget gives " + effect + " two times");
+  options.effect_budgets.push_back({effect, *ms});
+  return {};
+}
+
+Status read_budgets(const std::vector<std::string>& texts, Options& options) {
+  const bool steered =
+      options.command == Command::play || options.command == Command::render || options.command == Command::bench;
+  if (!texts.empty() && !steered) return usage("--budget is of play, render and bench");
+  for (const std::string& text : texts) GLOAM_TRY(read_budget(text, options));
+  if (texts.empty() && !options.ledger.empty() && options.command != Command::bench)
+    return usage("--ledger needs --budget");
   return {};
 }
 
@@ -250,8 +275,7 @@ Status check_texts(Options& options, const RawTexts& raw) {
     if (options.scene_list.empty()) return usage("--shard needs --list FILE");
     GLOAM_TRY(read_shard(*raw.shard, options.shard));
   }
-  if (raw.budget) GLOAM_TRY(read_budget(*raw.budget, options));
-  if (!raw.budget && !options.ledger.empty()) return usage("--ledger needs --budget");
+  GLOAM_TRY(read_budgets(raw.budgets, options));
   if (raw.minutes) GLOAM_TRY(read_minutes(*raw.minutes, options.minutes));
   if (raw.scale) GLOAM_TRY(read_scale(*raw.scale, options.scale));
   if (raw.in_flight) {

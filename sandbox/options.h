@@ -20,6 +20,12 @@ struct PixelPosition {
   std::uint32_t y = 0;
 };
 
+/// A time for the passes of one module.
+struct EffectBudget {
+  std::string effect;
+  double ms = 0.0;
+};
+
 /// A share of a list: the entries whose index modulo `count` is `number` - 1.
 struct Shard {
   std::uint32_t number = 1;  ///< 1…count
@@ -55,9 +61,10 @@ struct Options {
   std::uint32_t threads = 0;  ///< 0: one per core
   std::string animation;
   std::string config;
-  std::string cache_dir;            ///< empty: compiled pipelines are not kept between runs
-  std::optional<double> budget_ms;  ///< play, render: time of a frame
-  std::string ledger;               ///< play, render: file or folder of `cost`, with budget_ms; empty: find_ledger()
+  std::string cache_dir;                     ///< empty: compiled pipelines are not kept between runs
+  std::optional<double> budget_ms;           ///< play, render, bench: time of a frame
+  std::vector<EffectBudget> effect_budgets;  ///< play, render
+  std::string ledger;  ///< play, render, bench: file or folder of `cost`, for the budgets; empty: find_ledger()
   bool validate = false;
   std::optional<PixelPosition> pick;
   bool quiet = false;
@@ -85,6 +92,11 @@ struct Options {
 };
 
 inline constexpr std::uint32_t kMaxSize = 16384;
+
+/// Whether --budget is given, for frames or for effects.
+[[nodiscard]] inline bool has_budget(const Options& options) {
+  return options.budget_ms || !options.effect_budgets.empty();
+}
 
 /// Text of --help or --version: the program prints it and exits.
 struct PrintAndLeave {

@@ -187,6 +187,12 @@ struct CostCamera {
 /// combination is measured in all cameras. The ledger's time, points and folder are those of the first request.
 [[nodiscard]] Result<Ledger> measure_costs(std::span<const CostCamera> cameras, CostProgress& progress);
 
+/// Settings to choose from for a time budget of one module's passes (FrameBudget::effect): combinations of its knobs'
+/// values, predicted from the ledger's rows, the fastest first. Their times are those of the passes on the device,
+/// their errors mean FLIP against the whole frame. Empty if the ledger has no rows of the module, or its passes took no
+/// time.
+[[nodiscard]] std::vector<FrontPoint> effect_points(const Ledger& ledger, std::string_view effect, KnobRegistry knobs);
+
 struct KnobMeaning {
   std::string knob;
   std::string meaning;        ///< one sentence

@@ -59,7 +59,7 @@ Result<std::string> play_scene(const CommandContext& context, Window& window, Pl
     }
   }
   GLOAM_TRY(check_shown_live(*session.value()->renderer, options.view));
-  GLOAM_TRY(set_budget(**session, options, context.log));
+  GLOAM_TRY(set_budgets(**session, options, context.log));
   Player player(options, **session, pictures, lasting, context.log);
   GLOAM_TRY(player.run());
   if (player.next_scene().empty()) GLOAM_TRY(leave_results(context, **session, player));

@@ -58,9 +58,10 @@ Result<FrameSample> render_in_budget(Session& session, const CommandContext& con
                                      const std::vector<FrameSample>& samples) {
   Renderer& renderer = *session.renderer;
   if (!samples.empty()) {
-    const auto decision = renderer.add_frame_time({.ms = samples.back().wall_ms()});
-    if (decision && decision->reason == GovernorReason::cannot_fit)
-      context.log.warning(budget_text(*decision, *renderer.budget()));
+    const FrameSample& last = samples.back();
+    for (const BudgetDecision& told : add_frame_times(renderer, {.ms = last.wall_ms()}, last.report))
+      if (told.decision.reason == GovernorReason::cannot_fit)
+        context.log.warning(budget_text(told.decision, *renderer.budget(told.effect)));
   }
   set_size(session, context.options, shown.view);
   return session.render_frame({.settings = shown.drawn(), .target = {}});
@@ -72,7 +73,7 @@ Result<std::vector<FrameSample>> render_frames(Session& session, const CommandCo
   std::vector<FrameSample> samples;
   for (std::uint32_t frame = 0; frame < options.frames; ++frame) {
     session.set_clock(options.time_s + frame * options.dt_s, options.dt_s);
-    if (!options.budget_ms) {
+    if (!has_budget(options)) {
       GLOAM_TRY(run.draw({.settings = shown.drawn(), .target = {}}));
       continue;
     }
@@ -80,7 +81,7 @@ Result<std::vector<FrameSample>> render_frames(Session& session, const CommandCo
     if (!sample) return sample.error();
     samples.push_back(std::move(sample).value());
   }
-  return options.budget_ms ? Result(std::move(samples)) : run.finish();
+  return has_budget(options) ? Result(std::move(samples)) : run.finish();
 }
 
 /// Draws the last frame again with the range of the colour scale that fits it.
@@ -133,7 +134,7 @@ Status run_render(const CommandContext& context) {
   if (!opened) return opened.error();
   Session& session = *opened.value();
   GLOAM_TRY(ensure_baked(session, options, context.log, &context.console));
-  GLOAM_TRY(set_budget(session, options, context.log));
+  GLOAM_TRY(set_budgets(session, options, context.log));
   ShownView shown = {.view = session.view_settings(options.width, options.height, options.view),
                      .traced = traced_view(*session.renderer, options.view)};
   set_size(session, options, shown.view);

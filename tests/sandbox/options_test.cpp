@@ -172,9 +172,25 @@ TEST(Options, a_budget_is_a_time) {
   for (const char* text : {"", "ms", "0", "-8ms", "nan", "inf", "8s", "8 ms", "2e6ms"})
     EXPECT_THAT(fault({"play", "a.gltf", "--ledger", "l", "--budget", text}), HasSubstr("--budget wants a time"))
         << text;
-  EXPECT_THAT(fault({"render", "a.gltf", "--ledger", "l", "--budget", "grass=8ms"}), HasSubstr("one effect"));
-  for (const char* command : {"inspect", "cost", "bake", "bench"})
-    EXPECT_EQ(fault({command, "--budget", "8ms", "a.gltf"}), "--budget is of play and render") << command;
+  EXPECT_EQ(fault({"render", "a.gltf", "--budget", "8ms", "--budget", "9ms"}), "--budget gives frames two times");
+  for (const char* command : {"inspect", "cost", "bake"})
+    EXPECT_EQ(fault({command, "--budget", "8ms", "a.gltf"}), "--budget is of play, render and bench") << command;
+  EXPECT_EQ(parsed({"bench", "governor", "--budget", "8ms"}).budget_ms, 8.0);
+}
+
+TEST(Options, an_effect_has_a_budget_of_its_own) {
+  const Options options =
+      parsed({"render", "a.gltf", "--budget", "33ms", "--budget", "grass=8ms", "--budget", "fog=.5"});
+  EXPECT_EQ(options.budget_ms, 33.0);
+  ASSERT_EQ(options.effect_budgets.size(), 2u);
+  EXPECT_EQ(options.effect_budgets[0].effect, "grass");
+  EXPECT_EQ(options.effect_budgets[0].ms, 8.0);
+  EXPECT_EQ(options.effect_budgets[1].ms, 0.5);
+  EXPECT_EQ(parsed({"play", "a.gltf", "--budget", "grass=8ms"}).budget_ms, std::nullopt);
+  EXPECT_EQ(fault({"render", "a.gltf", "--budget", "fog=8", "--budget", "fog=9"}), "--budget gives fog two times");
+  EXPECT_THAT(fault({"render", "a.gltf", "--budget", "fog="}), HasSubstr("--budget wants a time"));
+  EXPECT_THAT(fault({"render", "a.gltf", "--budget", "=8ms"}), HasSubstr("EFFECT=TIME"));
+  EXPECT_THAT(fault({"bench", "governor", "--budget", "fog=8ms"}), HasSubstr("without an effect"));
 }
 
 TEST(Options, the_help_says_that_the_seed_seeds_nothing_yet) {

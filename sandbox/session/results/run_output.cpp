@@ -25,7 +25,7 @@ Status write_stats(const DrawnRun& run, const Options& options) {
                                       .width = run.view.width,
                                       .height = run.view.height,
                                       .in_flight = options.in_flight,
-                                      .budget = run.session.renderer->budget()};
+                                      .budgets = run.session.renderer->budgets()};
   GLOAM_TRY(make_folder_of(options.stats));
   return write_file(options.stats, stats_json(description, run.samples, counters, run.session.renderer->knobs()));
 }

@@ -170,7 +170,8 @@ std::string stats_json(const RunDescription& run, std::span<const FrameSample> s
   json["modules"] = modules_json(last);
   json["counters"] = counters;
   json["knobs"] = knobs_json(knobs);
-  if (run.budget) json["budget"] = budget_json(*run.budget);
+  for (const BudgetState& budget : run.budgets)
+    (budget.effect.empty() ? json["budget"] : json["effect_budgets"][budget.effect]) = budget_json(budget);
   return json_text(json);
 }
 

@@ -22,11 +22,12 @@ struct RunDescription {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
   std::uint32_t in_flight = 1;  ///< frames that were unfinished at a time
-  std::optional<BudgetState> budget = {};
+  std::vector<BudgetState> budgets = {};
 };
 
 /// The JSON text of `--stats` (schema version 1). samples: all frames of the run, in order, at least one. If there are
-/// several, the times leave out the first. "in_flight" is absent if it is 1, and "budget" without one. Times of a
+/// several, the times leave out the first. "in_flight" is absent if it is 1, "budget" without one for frames, and
+/// "effect_budgets" without one for an effect. Times of a
 /// system or pass are over the frames in which it ran; several calls of one name in a frame are added up. Counters and
 /// memory are those of the last frame, together with `extra_counters`. Figures that are not measured (bytes on the CPU)
 /// are absent.
