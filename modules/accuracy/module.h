@@ -193,6 +193,22 @@ struct CostCamera {
 /// time.
 [[nodiscard]] std::vector<FrontPoint> effect_points(const Ledger& ledger, std::string_view effect, KnobRegistry knobs);
 
+struct ShortLedgerRequest {
+  LedgerHeader header;  ///< reported only
+  /// Whole settings to measure beside the user's own, which come first. What is left when the time is over is left out,
+  /// but not the first of them.
+  std::vector<std::vector<KnobOverride>> settings;
+  double seconds = 14.0;
+  /// Called before each setting; an error ends measuring. May be null.
+  std::function<Status(std::size_t done, std::size_t total)> progress = nullptr;
+  std::function<double()> now_s = nullptr;  ///< a clock; null: that of the machine
+};
+
+/// A ledger without rows, made in seconds: the time of each setting by a few frames, and its error against the user's
+/// own settings, not against exact ones: no point is more right than these. The knobs have their previous values
+/// afterwards.
+[[nodiscard]] Result<Ledger> measure_short_ledger(const ShortLedgerRequest& request, CostSubject& subject);
+
 struct KnobMeaning {
   std::string knob;
   std::string meaning;        ///< one sentence

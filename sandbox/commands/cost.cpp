@@ -27,6 +27,7 @@
 #include "sandbox/session/loading/scene_files.h"
 #include "sandbox/session/loading/scene_loading.h"
 #include "sandbox/session/program_knobs.h"
+#include "sandbox/session/results/ledger_header.h"
 #include "sandbox/session/session.h"
 
 namespace gloam {
@@ -120,37 +121,6 @@ KnobRegistry measurable_knobs() {
   return registry;
 }
 
-/// What SessionCosts measures.
-std::string clock_of(gpu::DeviceType type) {
-  if (type != gpu::DeviceType::cpu) return "CPU time plus GPU time of a frame, on the wall";
-  const std::uint32_t cores = usable_cores();
-  return cores == 1 ? "processor time of a frame" : formatted("processor time of a frame, divided by %u cores", cores);
-}
-
-LedgerHeader header_of(const Session& session, const Options& options) {
-  const gpu::DeviceInfo& device = session.device->info();
-  return {.scene = options.scene,
-          .scene_hash = scene_hash(options.scene, session.world),
-          .camera = options.camera,
-          .time_s = options.time_s,
-          .device = device.name,
-          .driver = device.driver,
-          .device_type = std::string(gpu::name_of(device.type)),
-          .subgroup_size = device.subgroup_size,
-          .width = options.width,
-          .height = options.height,
-          .clock = clock_of(device.type),
-          .version = GLOAM_VERSION,
-          .build = program_hash(),
-          .host = host_name(),
-          .quick = options.quick,
-          .frames = options.quick ? kQuickFrames : kLedgerFrames,
-          .seconds = options.minutes ? *options.minutes * 60.0
-                     : options.quick ? kQuickSeconds
-                                     : 0.0,
-          .samples = options.quick ? kQuickSamples : kLedgerSamples};
-}
-
 std::string conditions_of(const Options& options) {
   return "seed " + std::to_string(options.seed) + " dt " + formatted("%f", options.dt_s) + " view '" + options.view +
          "' animation '" + options.animation + "'";
@@ -167,7 +137,7 @@ std::string idle_reason(const Module& module, const std::string& knob, const Ses
 /// Knobs of effects that the scene does not demand, or that a knob switches off, change nothing: they are measured only
 /// if the user names them.
 CostRequest make_request(Session& session, const Options& options, const std::vector<std::string>& chosen) {
-  CostRequest request = {.header = header_of(session, options),
+  CostRequest request = {.header = ledger_header(session, options),
                          .conditions = conditions_of(options),
                          .points = options.points.value_or(options.quick ? kQuickPoints : kLedgerPoints),
                          .sequence = options.frames,

@@ -15,6 +15,8 @@
 #include "sandbox/play/start/scene_opening.h"
 #include "sandbox/session/drawing/frame_tracing.h"
 #include "sandbox/session/drawing/session_budget.h"
+#include "sandbox/session/drawing/short_ledger.h"
+#include "sandbox/session/loading/kept_ledger.h"
 #include "sandbox/session/loading/scene_loading.h"
 #include "sandbox/session/results/run_output.h"
 #include "sandbox/session/session.h"
@@ -38,6 +40,34 @@ Status leave_results(const CommandContext& context, Session& session, const Play
   return write_reports(run, options, context.console);
 }
 
+/// Sets the budgets of --budget. Frames of a scene without a ledger of its own are measured for some seconds, which the
+/// window shows. Returns false if the user closes the window meanwhile.
+Result<bool> choose_budgets(Session& session, const Options& options, LogSink& log, Window& window,
+                            LoadingScreen& screen) {
+  if (!has_budget(options)) return true;
+  auto own = find_own_ledger(session, options);
+  if (!own) return own.error();
+  if (*own || !options.budget_ms) {
+    const Status set = *own ? set_budgets(session, options, **own, log) : set_budgets(session, options, log);
+    return set.ok() ? Result<bool>(true) : set.error();
+  }
+  bool closed = false;
+  const auto show = [&](std::size_t done, std::size_t total) -> Status {
+    closed = window.poll().leave || window.should_close();
+    if (closed) return Error{ErrorKind::failed, "the window was closed"};
+    return screen.show({"measuring settings for --budget", done, total});
+  };
+  Options drawn = options;
+  drawn.width = window.width();
+  drawn.height = window.height();
+  auto ledger = measure_session_shortly(session, drawn, show);
+  if (closed) return false;
+  if (!ledger) return ledger.error();
+  if (const Status kept = keep_ledger(*ledger, options); !kept.ok()) log.warning(kept.error().message);
+  const Status set = set_budgets(session, drawn, {std::move(ledger).value(), "the short ledger"}, log);
+  return set.ok() ? Result<bool>(true) : set.error();
+}
+
 /// Shows one scene in the window. Returns the scene to show next; empty: the user has left.
 Result<std::string> play_scene(const CommandContext& context, Window& window, Player::Lasting& lasting) {
   const Options& options = context.options;
@@ -53,13 +83,14 @@ Result<std::string> play_scene(const CommandContext& context, Window& window, Pl
     LoadingScreen screen(*session.value()->device, pictures, window.content_scale());
     const auto go_on = open_scene(**session, options, context.log, window, screen);
     if (!go_on) return go_on.error();
-    if (!*go_on) {
+    const auto chosen = *go_on ? choose_budgets(**session, options, context.log, window, screen) : go_on;
+    if (!chosen) return chosen.error();
+    if (!*chosen) {
       GLOAM_TRY(session.value()->renderer->wait());
       return std::string();
     }
   }
   GLOAM_TRY(check_shown_live(*session.value()->renderer, options.view));
-  GLOAM_TRY(set_budgets(**session, options, context.log));
   Player player(options, **session, pictures, lasting, context.log);
   GLOAM_TRY(player.run());
   if (player.next_scene().empty()) GLOAM_TRY(leave_results(context, **session, player));

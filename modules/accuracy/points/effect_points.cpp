@@ -13,6 +13,8 @@ namespace {
 
 /// Times of one module have no intervals of their own; smaller differences count as none.
 constexpr double kSureShare = 0.05;
+/// Of the default's time: passes of an effect that is switched off take none, but only times above 0 can be scaled.
+constexpr double kLeastShare = 1e-3;
 /// A point is left out if it is not slower than the last one by this factor.
 constexpr double kLeastStep = 1.04;
 
@@ -30,7 +32,7 @@ std::vector<LedgerRow> rows_of_effect(const Ledger& ledger, std::string_view eff
     const auto own =
         std::ranges::find_if(rows, [&](const LedgerRow& other) { return other.knob == row.knob && other.is_default; });
     const double base = own == rows.end() ? default_ms : own->module_gpu_ms;
-    row.ratio = base > 0.0 ? row.module_gpu_ms / base : 1.0;
+    row.ratio = base > 0.0 ? std::max(row.module_gpu_ms / base, kLeastShare) : 1.0;
     row.ratio_low = row.ratio - kSureShare;
     row.ratio_high = row.ratio + kSureShare;
     if (row.is_default) row.ratio = 1.0;

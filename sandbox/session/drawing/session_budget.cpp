@@ -34,9 +34,9 @@ std::vector<std::string> locked_by_user(const Options& options) {
   return names;
 }
 
-/// Time of a module's passes.
+/// Time of a module's passes; above 0 even if it has none, because frames without a time tell a budget nothing.
 double effect_ms(const FrameReport& report, const std::string& effect) {
-  double ms = 0.0;
+  double ms = 1e-3;
   for (const PassTime& pass : report.passes)
     if (pass.module == effect) ms += pass.ms;
   return ms;

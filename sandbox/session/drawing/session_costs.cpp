@@ -62,8 +62,15 @@ Result<FrameCost> SessionCosts::draw(std::int32_t index) {
   request_.settings.height = scaled_size(options_.height, scale);
   // What frames keep from those before them must not be of another value of a knob.
   request_.settings.camera_cut = index != index_ && index != index_ + 1;
-  const auto sample = session_.render_frame(request_);
+  auto sample = session_.render_frame(request_);
   if (!sample) return sample.error();
+  // A session with a window draws earlier values while pipelines are made in the background.
+  bool waited = false;
+  while (sample->report.pipelines_pending > 0 || sample->report.assets_pending > 0 || std::exchange(waited, false)) {
+    waited = sample->report.pipelines_pending > 0 || sample->report.assets_pending > 0;
+    sample = session_.render_frame(request_);
+    if (!sample) return sample.error();
+  }
   index_ = index;
   return FrameCost{.cpu_ms = sample->report.cpu_ms,
                    .gpu_ms = sample->report.gpu_ms,

@@ -65,19 +65,31 @@ Status keep_ledger(const Ledger& ledger, const Options& options) {
   return write_file(path, ledger_json(ledger));
 }
 
-Result<LedgerFile> find_ledger(const Session& session, const Options& options) {
+Result<std::optional<LedgerFile>> find_own_ledger(const Session& session, const Options& options) {
+  std::string path;
   if (!options.ledger.empty()) {
     std::error_code fault;
-    const bool folder = fs::is_directory(options.ledger, fault);
-    return read_ledger(folder ? options.ledger + "/ledger.json" : options.ledger);
+    path = fs::is_directory(options.ledger, fault) ? options.ledger + "/ledger.json" : options.ledger;
+  } else if (const std::string beside = ledger_beside(options.scene); exists(beside)) {
+    path = beside;
+  } else if (!options.cache_dir.empty()) {
+    path =
+        device_folder(options, session.device->info().name) + "/" + scene_hash(options.scene, session.world) + ".json";
+    if (!exists(path)) path.clear();
   }
-  if (const std::string beside = ledger_beside(options.scene); exists(beside)) return read_ledger(beside);
-  if (!options.cache_dir.empty()) {
-    const std::string folder = device_folder(options, session.device->info().name);
-    const std::string own = folder + "/" + scene_hash(options.scene, session.world) + ".json";
-    if (exists(own)) return read_ledger(own);
-    if (const std::string other = newest_in(folder); !other.empty()) return read_ledger(other);
-  }
+  if (path.empty()) return std::optional<LedgerFile>();
+  auto found = read_ledger(path);
+  if (!found) return found.error();
+  return std::optional<LedgerFile>(std::move(found).value());
+}
+
+Result<LedgerFile> find_ledger(const Session& session, const Options& options) {
+  auto own = find_own_ledger(session, options);
+  if (!own) return own.error();
+  if (*own) return std::move(**own);
+  if (!options.cache_dir.empty())
+    if (const std::string other = newest_in(device_folder(options, session.device->info().name)); !other.empty())
+      return read_ledger(other);
   return Error{ErrorKind::usage, "--budget needs a ledger of this device: measure one with gloam cost " +
                                      options.scene + " --quick --out DIR, or name one with --ledger"};
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "engine/core/result.h"
@@ -23,10 +24,12 @@ struct LedgerFile {
   std::string path;
 };
 
-/// The ledger to choose combinations from: that of --ledger (a file, or the folder that `cost` has written); else the
-/// one beside the scene; else the one in the cache for this scene and device; else any in the cache of this device. A
-/// usage error says how to measure one if there is none. Input error for a file that is no ledger or has no
+/// The scene's own ledger: that of --ledger (a file, or the folder that `cost` has written); else the one beside the
+/// scene; else the one in the cache for this scene and device. Input error for a file that is no ledger or has no
 /// combinations.
+[[nodiscard]] Result<std::optional<LedgerFile>> find_own_ledger(const Session& session, const Options& options);
+
+/// The same, or else any ledger in the cache of this device. A usage error says how to measure one if there is none.
 [[nodiscard]] Result<LedgerFile> find_ledger(const Session& session, const Options& options);
 
 }  // namespace gloam

@@ -76,6 +76,15 @@ TEST(EffectPoints, points_are_some_percent_apart_and_the_most_exact_one_stays) {
   EXPECT_NE(point_with(points, {"fog.steps=many"}), nullptr);
 }
 
+TEST(EffectPoints, an_effect_may_be_switched_off) {
+  Ledger ledger = effect_ledger();
+  ledger.rows[3] = effect_row("fog.light", "flat", 0.0, 0.2);
+  const std::vector<FrontPoint> points = effect_points(ledger, "fog", effect_knobs());
+  EXPECT_EQ(&points.front(), point_with(points, {"fog.light=flat"}));
+  EXPECT_GT(points.front().ms, 0.0) << "the renderer takes no setting without a time";
+  EXPECT_LT(points.front().ms, 0.1);
+}
+
 TEST(EffectPoints, without_rows_or_passes_there_are_none) {
   EXPECT_TRUE(effect_points(effect_ledger(), "smoke", effect_knobs()).empty());
   EXPECT_TRUE(effect_points(effect_ledger(), "grass", effect_knobs()).empty()) << "no time by default";

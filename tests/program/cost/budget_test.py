@@ -68,6 +68,24 @@ class Budget(ProgramCase):
         stats, _ = self.budget("--budget", "0.001", "--ledger", "l", "--set", "shadows.mode=monolithic")
         self.assertEqual((stats["knobs"]["shadows.mode"], stats["knobs"]["views.scale"]), ("monolithic", "0.5"))
 
+    def test_an_effect_keeps_within_its_own_time(self):
+        ledger = self.read_json("l/ledger.json")
+        row = ledger["rows"][0]
+        ledger["rows"] = [row | {"knob": "shadows.filter", "value": value, "default": value == "chs", "no_effect": False,
+                                 "module_ms": {"cpu": 0.0, "gpu": ms}, "whole_frame": row["whole_frame"] | {"flip": {"mean": error, "p99": error}}}
+                          for value, ms, error in (("chs", 4.0, 0.01), ("hard", 1.0, 0.03))]
+        self.write_ledger("rows.json", ledger)
+        stats, _ = self.budget("--budget", "shadows=0.0001ms", "--ledger", "rows.json")
+        self.assertNotIn("budget", stats)
+        self.assertEqual({key: stats["effect_budgets"]["shadows"][key] for key in ("ms", "points", "point", "settings")},
+                         {"ms": 0.0001, "points": 2, "point": 0, "settings": {"shadows.filter": "hard"}})
+        self.assertEqual((stats["knobs"]["shadows.filter"], stats["knobs"]["views.scale"]), ("hard", "1"))
+        # The frames' own budget leaves the effect's knobs alone.
+        stats, _ = self.budget("--budget", "100000ms", "--budget", "shadows=0.0001", "--ledger", "rows.json")
+        self.assertEqual((stats["budget"]["error"], stats["knobs"]["shadows.filter"]), (0.0, "hard"))
+        self.expect(3, *RENDER, "--budget", "fog=9", "--ledger", "rows.json", says="no rows of the knobs of fog")
+        self.expect(2, *RENDER, "--budget", "shadow=9", "--ledger", "rows.json", says="did you mean shadows?")
+
     def test_a_ledger_of_other_things_is_used_with_a_warning(self):
         run = self.expect(0, "render", "builtin:lanterns", "--size", "64x36", "--out", "x.png", "--budget", "99999", "--ledger", "l")
         self.assertIn("another scene builtin:plain", run.stderr)
