@@ -45,6 +45,11 @@ Status Renderer::set_budget(FrameBudget budget) {
   return parts_->budgets.set(std::move(budget), effects, knobs());
 }
 
+Status Renderer::change_budget(std::string_view effect, double ms, std::vector<std::string> locked) {
+  parts_->check_idle("change_budget");
+  return parts_->budgets.change(effect, ms, std::move(locked), knobs());
+}
+
 void Renderer::clear_budget(std::string_view effect) { parts_->budgets.clear(effect); }
 
 std::optional<GovernorDecision> Renderer::add_frame_time(const FrameTime& time) {

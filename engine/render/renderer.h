@@ -47,6 +47,10 @@ class Renderer {
   /// setting, a locked knob or the effect does not exist, or if another budget sets one of the knobs; then nothing
   /// changes. With Readiness::background, a change waits until its pipelines are ready.
   [[nodiscard]] Status set_budget(FrameBudget budget);
+  /// Changes the time and the locked knobs of an effect's budget (empty: that of whole frames). Front, point in use and
+  /// what the frames so far have shown stay. Knobs that are no longer locked get the values of the point in use. Usage
+  /// error without such a budget, and as of set_budget(); then nothing changes.
+  [[nodiscard]] Status change_budget(std::string_view effect, double ms, std::vector<std::string> locked);
   /// Ends the budget of an effect; empty: that of whole frames. The knobs keep the values that they have.
   void clear_budget(std::string_view effect = {});
   /// How long the last frame, or an effect in it, took, for the budget of the same effect; call it once a frame for

@@ -12,6 +12,7 @@
 #include "sandbox/play/input/orbit_controls.h"
 #include "sandbox/session/drawing/frame_tracing.h"
 #include "sandbox/session/loading/scene_loading.h"
+#include "sandbox/session/program_knobs.h"
 
 namespace gloam {
 
@@ -19,6 +20,7 @@ PlayPanel::PlayPanel(Session& session, double scale, bool shown)
     : session_(session),
       scale_(scale),
       shown_(shown),
+      budgets_(*session.renderer),
       lights_(session.world),
       visualizers_(session.renderer->visualizers()) {
   const auto& names = session.world.resource<SceneNames>();
@@ -53,22 +55,25 @@ Status PlayPanel::update(WindowInput& input, const PanelFrame& frame, ViewSettin
     view.visualizer = visualizer;
     return {};
   };
+  // A budget of whole frames chooses the scale.
+  const bool chosen = renderer.budget().has_value();
+  const double drawn_at = chosen ? view_scale(renderer.knobs()) : scale.scale();
+  PanelContent content = {.knobs = renderer.knobs(),
+                          .times = times_,
+                          .modules = report.modules,
+                          .visualizers = visualizers_,
+                          .visualizer = view.visualizer,
+                          .show = show,
+                          .scale = drawn_at,
+                          .scale_setting = scale.setting(),
+                          .scale_steps = ResolutionScale::kSteps,
+                          .notice = notice_,
+                          .heat_range = view.heat_range};
+  if (!chosen) content.set_scale = [&](double setting) { scale.set(setting); };
   const PanelScene scene = scene_of(controls, view);
-  panel_->update(input.panel, frame,
-                 {.knobs = renderer.knobs(),
-                  .times = times_,
-                  .modules = report.modules,
-                  .visualizers = visualizers_,
-                  .visualizer = view.visualizer,
-                  .show = show,
-                  .scale = scale.scale(),
-                  .scale_setting = scale.setting(),
-                  .scale_steps = ResolutionScale::kSteps,
-                  .set_scale = [&](double setting) { scale.set(setting); },
-                  .scene = controls.pause ? &scene : nullptr,
-                  .notice = notice_,
-                  .heat_range = view.heat_range});
-  if (input.clicked && !panel_->wants_mouse() && !report.passes.empty()) pick(input, view, scale.scale());
+  if (controls.pause) content.scene = &scene;
+  this->show(input, frame, content, controls);
+  if (input.clicked && !panel_->wants_mouse() && !report.passes.empty()) pick(input, view, drawn_at);
   if (panel_->wants_mouse()) {
     input.drag_x = input.drag_y = input.orbit_x = input.orbit_y = input.wheel = 0.0;
     input.clicked = input.grabbed = input.look_at = false;
@@ -80,6 +85,21 @@ Status PlayPanel::update(WindowInput& input, const PanelFrame& frame, ViewSettin
     input.camera = 0;
   }
   return {};
+}
+
+/// The panel with the budgets.
+void PlayPanel::show(WindowInput& input, const PanelFrame& frame, PanelContent& content, const PlayControls& controls) {
+  budgets_.begin();
+  const PanelBudgets budgets = {
+      .budgets = budgets_.budgets(),
+      .set_ms = [this](std::size_t budget, double ms) { budgets_.set_ms(budget, ms); },
+      .lock = [this](std::size_t budget, const std::string& knob, bool locked) { budgets_.lock(budget, knob, locked); },
+      .fault = budgets_.fault(),
+      .wipe = controls.wipe,
+      .set_wipe = controls.set_wipe};
+  if (controls.set_wipe) content.budgets = &budgets;
+  panel_->update(input.panel, frame, content);
+  budgets_.end();
 }
 
 PanelScene PlayPanel::scene_of(const PlayControls& controls, const ViewSettings& view) {

@@ -13,6 +13,7 @@
 
 #include "engine/math/types.h"
 #include "engine/render/renderer.h"
+#include "sandbox/play/budget/budget_controls.h"
 #include "sandbox/play/display/resolution_scale.h"
 #include "sandbox/play/input/light_controls.h"
 #include "sandbox/session/session.h"
@@ -31,6 +32,8 @@ struct PlayControls {
   std::function<void(bool paused)> pause = {};
   std::function<void(std::uint32_t number)> show_camera = {};  ///< from 1 on
   std::function<void(const std::string& text)> copy = {};      ///< to the clipboard
+  PanelWipe wipe = {};
+  std::function<void(bool on, float at)> set_wipe = {};
 };
 
 /// The panel of `play`: shows and hides it, and connects it with the session. Panel and renderer are created when it is
@@ -61,6 +64,7 @@ class PlayPanel {
 
  private:
   [[nodiscard]] Status open();
+  void show(WindowInput& input, const PanelFrame& frame, PanelContent& content, const PlayControls& controls);
   [[nodiscard]] PanelScene scene_of(const PlayControls& controls, const ViewSettings& view);
   void pick(const WindowInput& input, const ViewSettings& view, double scale);
   void set_lens(float focus_m, float f_number);
@@ -72,6 +76,7 @@ class PlayPanel {
   bool shown_;
   bool drawn_ = false;  ///< shown by the last update
   FrameTimes times_;
+  BudgetControls budgets_;
   LightControls lights_;
   std::vector<PanelLight> shown_lights_;
   std::vector<std::string> cameras_;

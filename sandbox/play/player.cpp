@@ -3,6 +3,7 @@
 #include "sandbox/play/player.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <system_error>
@@ -50,6 +51,7 @@ Player::Player(const Options& options, Session& session, WindowPictures& picture
       scale_(on_software_ ? kSoftwareBudgetMs : kGpuBudgetMs, lasting.scale),
       upscaler_(*session.device),
       panel_(session, pictures.window().content_scale(), lasting.panel),
+      wipe_(session),
       shaders_(options.shaders),
       time_s_(options.time_s) {
   settings_ = session.view_settings(options.width, options.height, options.view);
@@ -86,9 +88,25 @@ PlayControls Player::controls() {
   return {.scene = options_.scene,
           .time_s = time_s_,
           .paused = paused_,
-          .pause = [this](bool paused) { paused_ = paused; },
+          .pause = [this](bool paused) { pause(paused); },
           .show_camera = [this](std::uint32_t number) { show_camera(number); },
-          .copy = [this](const std::string& text) { pictures_.window().copy(text); }};
+          .copy = [this](const std::string& text) { pictures_.window().copy(text); },
+          .wipe = wipe_.shown(),
+          .set_wipe = [this](bool on, float at) { set_wipe(on, at); }};
+}
+
+void Player::pause(bool paused) {
+  paused_ = paused;
+  wipe_paused_ = false;
+}
+
+void Player::set_wipe(bool on, float at) {
+  if (on && !wipe_.shown().on && !paused_) {
+    pause(true);
+    wipe_paused_ = true;
+  }
+  if (!on && wipe_paused_) pause(false);
+  wipe_.set(on, at);
 }
 
 WindowInput Player::poll() {
@@ -118,9 +136,9 @@ void Player::play_script() {
 /// Does what keys and dropped files ask for.
 Status Player::obey(const WindowInput& input) {
   if (input.full_screen) pictures_.window().toggle_full_screen();
-  if (input.pause) paused_ = !paused_;
+  if (input.pause) pause(!paused_);
   step_once_ = input.step;
-  paused_ |= input.step;
+  if (input.step) pause(true);
   if (input.camera > 0) show_camera(input.camera);
   accept(input.dropped);
   return input.screenshot && shown_ ? save_screenshot() : Status();
@@ -228,14 +246,13 @@ Status Player::move_camera(const WindowInput& input) {
 /// On a software device the whole turn counts. A GPU waits for the display, so there its own time counts.
 void Player::adapt_to_time() {
   if (!shown_) return;
-  const double ms = on_software_ ? frame_s_ * 1e3 : session_.renderer->report().gpu_ms;
-  if (!options_.budget_ms) {
-    scale_.add(ms);
-    return;
-  }
-  const auto decision = session_.renderer->add_frame_time({.ms = ms, .view = views_});
-  if (decision && decision->reason != GovernorReason::none)
-    panel_.tell(budget_text(*decision, *session_.renderer->budget()), false);
+  Renderer& renderer = *session_.renderer;
+  const FrameReport report = renderer.report();
+  const double ms = on_software_ ? frame_s_ * 1e3 : report.gpu_ms;
+  const bool judged = wipe_.judges_frame();
+  if (!options_.budget_ms && judged) scale_.add(ms);
+  for (const BudgetDecision& told : add_frame_times(renderer, {.ms = ms, .judged = judged, .view = views_}, report))
+    panel_.tell(budget_text(told.decision, *renderer.budget(told.effect)), false);
 }
 
 double Player::scale() const { return options_.budget_ms ? view_scale(session_.renderer->knobs()) : scale_.scale(); }
@@ -291,7 +308,7 @@ Result<ViewRequest> Player::request() {
     upscaler_.release();
     request.target.after = gpu::Access::present;
     request.target.acquire = [this] { return pictures_.acquire(); };
-    request.target.overlay = panel_.overlay();
+    request.target.overlay = [this](FrameGraph& graph, ImageRef& window) { return add_overlays(graph, window); };
     return request;
   }
   const auto image = upscaler_.image(request.settings.width, request.settings.height);
@@ -309,8 +326,13 @@ Status Player::show_enlarged(FrameGraph& graph, ImageRef picture) {
   if (!*image) return {};
   ImageRef window = graph.import_image("window", *image, gpu::Access::none, gpu::Access::present);
   GLOAM_TRY(upscaler_.add_passes(graph, picture, window));
-  const auto overlay = panel_.overlay();
-  return overlay ? overlay(graph, window) : Status();
+  return add_overlays(graph, window);
+}
+
+Status Player::add_overlays(FrameGraph& graph, ImageRef& window) {
+  GLOAM_TRY(wipe_.add_pass(graph, window));
+  const auto panel = panel_.overlay();
+  return panel ? panel(graph, window) : Status();
 }
 
 /// Runs of a number of frames are measured.
@@ -322,8 +344,16 @@ Status Player::count_shown(bool first) {
   return {};
 }
 
-/// Waits for the frame only if its times are needed (--stats, --trace).
+/// Waits for the frame only if its times are needed (--stats, --trace). A frame that also draws the exact picture of
+/// the wipe has no sample.
 Status Player::render(const ViewRequest& request) {
+  const auto exact = wipe_.due(settings_, time_s_, scale_.scale(), frame_s_);
+  if (!exact) return exact.error();
+  if (*exact) {
+    GLOAM_TRY(session_.renderer->render(session_.world, std::array{**exact, request}));
+    wipe_.drawn();
+    return {};
+  }
   if (options_.stats.empty() && options_.trace.empty()) {
     panel_.add_systems(session_.zones.take());
     return session_.renderer->render(session_.world, {&request, 1});

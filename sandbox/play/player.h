@@ -10,6 +10,7 @@
 #include "engine/core/result.h"
 #include "sandbox/options.h"
 #include "sandbox/output/frame_sample.h"
+#include "sandbox/play/budget/wipe.h"
 #include "sandbox/play/display/resolution_scale.h"
 #include "sandbox/play/display/upscaler.h"
 #include "sandbox/play/display/window_pictures.h"
@@ -53,6 +54,9 @@ class Player {
   void play_script();
   [[nodiscard]] Status obey(const WindowInput& input);
   void show_camera(std::uint32_t number);
+  void pause(bool paused);
+  /// The wipe compares pictures of one moment, so it pauses the scene.
+  void set_wipe(bool on, float at);
   [[nodiscard]] Status save_screenshot();
   void accept(const std::vector<std::string>& dropped);
   void drop_view_without_its_knob();
@@ -67,6 +71,8 @@ class Player {
   [[nodiscard]] Result<bool> draw();
   [[nodiscard]] Result<ViewRequest> request();
   [[nodiscard]] Status show_enlarged(FrameGraph& graph, ImageRef picture);
+  /// The exact side of the wipe, and the panel over it.
+  [[nodiscard]] Status add_overlays(FrameGraph& graph, ImageRef& window);
   [[nodiscard]] Status render(const ViewRequest& request);
   [[nodiscard]] Status count_shown(bool first);
 
@@ -84,6 +90,8 @@ class Player {
   std::uint64_t views_ = 0;   ///< camera cuts so far, for the budget
   Upscaler upscaler_;
   PlayPanel panel_;
+  Wipe wipe_;
+  bool wipe_paused_ = false;  ///< the wipe has paused the scene
   ShaderReload shaders_;
   std::vector<FrameSample> samples_;
   double time_s_ = 0.0;

@@ -34,6 +34,13 @@ void show_tooltip(const std::string& text) {
 
 std::string stem_of(const std::string& visualizer) { return visualizer.substr(0, visualizer.find(':')); }
 
+/// What a budget does with a knob, for its tooltip. knob: null if no budget names it.
+std::string budget_note(const PanelBudgetKnob* knob) {
+  if (knob == nullptr) return {};
+  return knob->locked ? "\nlocked: the budget leaves it alone; unlock it in the section Budget"
+                      : "\nthe budget sets it; a change here locks it";
+}
+
 constexpr ImGuiTableFlags kTableFlags =
     ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerV | ImGuiTableFlags_SizingFixedFit;
 
@@ -127,6 +134,7 @@ void Panel::update(const PanelInput& input, const PanelFrame& frame, const Panel
     show_notice(content.notice);
     show_times(content.times);
     show_scale(content, frame);
+    if (content.budgets != nullptr) show_budgets(*content.budgets);
     show_settings(content);
     show_views(content);
     if (content.scene != nullptr) {
@@ -134,7 +142,7 @@ void Panel::update(const PanelInput& input, const PanelFrame& frame, const Panel
       show_lights(*content.scene);
       show_pixel(*content.scene);
     }
-    show_knobs(content.knobs);
+    show_knobs(content);
     show_passes(content.times);
     show_systems(content.times);
     show_modules(content.modules);
@@ -169,10 +177,10 @@ void Panel::show_times(const FrameTimes& times) {
 }
 
 void Panel::show_scale(const PanelContent& content, const PanelFrame& frame) {
-  if (!content.set_scale) return;
   ImGui::AlignTextToFramePadding();
   ImGui::Text("drawn at %.0f x %.0f", std::round(frame.width * content.scale),
               std::round(frame.height * content.scale));
+  if (!content.set_scale) return;
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-1.0f);
   const bool open = ImGui::BeginCombo("##scale", scale_text(content.scale_setting, content.scale).c_str());
@@ -243,7 +251,7 @@ void Panel::show_heat_scale(const PanelContent& content, const HeatScale& heat) 
   if (range == nullptr || !ImGui::BeginTable("range", 3, ImGuiTableFlags_SizingFixedFit)) return;
   ImGui::TableSetupColumn("name");
   ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);
-  show_knob(content.knobs, *range);
+  show_knob(content, *range);
   ImGui::EndTable();
 }
 
@@ -259,14 +267,14 @@ void Panel::show_view_argument(const PanelContent& content, const VisualizerInfo
   }
 }
 
-void Panel::show_knobs(KnobRegistry& knobs) {
+void Panel::show_knobs(const PanelContent& content) {
   if (!ImGui::CollapsingHeader("Knobs", ImGuiTreeNodeFlags_DefaultOpen)) return;
   ImGui::SetNextItemWidth(-1.0f);
   ImGui::InputTextWithHint("##search", "search", &search_);
   remember_widget("search");
-  const std::vector<KnobGroup> groups = knob_groups(knobs, search_);
+  const std::vector<KnobGroup> groups = knob_groups(content.knobs, search_);
   for (const KnobGroup& group : groups)
-    if (begin_knob_group(group)) show_knob_group(knobs, group);
+    if (begin_knob_group(group)) show_knob_group(content, group);
   if (groups.empty()) ImGui::TextDisabled("no knob has this in its name or meaning");
 }
 
@@ -286,26 +294,43 @@ bool Panel::begin_knob_group(const KnobGroup& group) {
 }
 
 /// All groups are one table to ImGui, so their columns have the same widths.
-void Panel::show_knob_group(KnobRegistry& knobs, const KnobGroup& group) {
+void Panel::show_knob_group(const PanelContent& content, const KnobGroup& group) {
   if (!ImGui::BeginTable("knobs", 3, ImGuiTableFlags_SizingFixedFit)) return;
   ImGui::TableSetupColumn("name");
   ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableSetupColumn("reset");
   for (const Knob* knob : group.knobs) {
     ImGui::PushID(knob->name.c_str());
-    show_knob(knobs, *knob);
+    show_knob(content, *knob);
     ImGui::PopID();
   }
   ImGui::EndTable();
 }
 
-void Panel::show_knob(KnobRegistry& knobs, const Knob& knob) {
+void Panel::show_knob(const PanelContent& content, const Knob& knob) {
+  KnobRegistry& knobs = content.knobs;
+  const PanelBudgetKnob* budgeted = content.budgets != nullptr ? content.budgets->find(knob.name) : nullptr;
+  const std::string tooltip = knob_tooltip(knob) + budget_note(budgeted);
   ImGui::TableNextColumn();
   ImGui::AlignTextToFramePadding();
   show_text(knob.name);
-  show_tooltip(knob_tooltip(knob));
+  show_tooltip(tooltip);
+  if (budgeted != nullptr) {
+    ImGui::SameLine();
+    ImGui::TextDisabled(budgeted->locked ? "locked" : "budget");
+  }
   ImGui::TableNextColumn();
   ImGui::SetNextItemWidth(-1.0f);
+  show_knob_value(knobs, knob);
+  show_tooltip(tooltip);
+  ImGui::TableNextColumn();
+  ImGui::BeginDisabled(is_default(knobs, knob));
+  if (ImGui::Button("reset")) reset_knob(knobs, knob);
+  ImGui::EndDisabled();
+  remember_widget(knob.name + " reset");
+}
+
+void Panel::show_knob_value(KnobRegistry& knobs, const Knob& knob) {
   const double value = knob_value(knobs, knob);
   const ImGuiSliderFlags flags =
       ImGuiSliderFlags_AlwaysClamp | (spans_magnitudes(knob) ? ImGuiSliderFlags_Logarithmic : 0);
@@ -340,12 +365,6 @@ void Panel::show_knob(KnobRegistry& knobs, const Knob& knob) {
       break;
     }
   }
-  show_tooltip(knob_tooltip(knob));
-  ImGui::TableNextColumn();
-  ImGui::BeginDisabled(is_default(knobs, knob));
-  if (ImGui::Button("reset")) reset_knob(knobs, knob);
-  ImGui::EndDisabled();
-  remember_widget(knob.name + " reset");
 }
 
 }  // namespace gloam

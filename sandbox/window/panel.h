@@ -12,6 +12,7 @@
 #include "engine/core/result.h"
 #include "engine/render/renderer.h"
 #include "sandbox/window/gui.h"
+#include "sandbox/window/panel_budget.h"
 #include "sandbox/window/panel_model.h"
 #include "sandbox/window/panel_scene.h"
 
@@ -35,8 +36,9 @@ struct PanelContent {
   double scale = 1.0;          ///< of the frame's width and height to the window's
   double scale_setting = 1.0;  ///< 0: automatic
   std::span<const double> scale_steps = {};
-  std::function<void(double setting)> set_scale = {};
-  const PanelScene* scene = nullptr;  ///< null: not shown
+  std::function<void(double setting)> set_scale = {};  ///< empty: the scale is shown only
+  const PanelScene* scene = nullptr;                   ///< null: not shown
+  const PanelBudgets* budgets = nullptr;               ///< null: not shown
   PanelNotice notice = {};
   float heat_range = 1.0f;  ///< ViewSettings::heat_range
 };
@@ -46,7 +48,8 @@ struct PanelWidget {
   /// "knobs MODULE", KNOB, "KNOB reset", "KNOB CHOICE", "search", "view", "view VISUALIZER", "view argument", "scale",
   /// "scale auto", "scale NN %", "camera", "camera NAME", "pause", "exposure auto", "exposure", "lens", "lens here",
   /// "lens focus", "lens f-number", "pixel", "lights", "LIGHT mute", "LIGHT solo", "LIGHT intensity", "keep A", "show
-  /// A", "keep B", "show B", "save config" or "copy command"
+  /// A", "keep B", "show B", "save config", "copy command", "budget section", "budget", "budget EFFECT", "lock KNOB",
+  /// "wipe" or "wipe line"
   std::string name;
   float left = 0.0f;
   float top = 0.0f;
@@ -83,10 +86,15 @@ class Panel {
   void show_pixel(const PanelScene& scene);
   void show_lights(const PanelScene& scene);
   void show_light(const PanelScene& scene, std::size_t index);
-  void show_knobs(KnobRegistry& knobs);
+  void show_budgets(const PanelBudgets& budgets);
+  void show_budget(const PanelBudgets& budgets, std::size_t index);
+  void show_budget_knobs(const PanelBudgets& budgets, std::size_t index);
+  void show_wipe(const PanelBudgets& budgets);
+  void show_knobs(const PanelContent& content);
   [[nodiscard]] bool begin_knob_group(const KnobGroup& group);
-  void show_knob_group(KnobRegistry& knobs, const KnobGroup& group);
-  void show_knob(KnobRegistry& knobs, const Knob& knob);
+  void show_knob_group(const PanelContent& content, const KnobGroup& group);
+  void show_knob(const PanelContent& content, const Knob& knob);
+  void show_knob_value(KnobRegistry& knobs, const Knob& knob);
   void remember_widget(const std::string& name);
 
   Gui gui_;

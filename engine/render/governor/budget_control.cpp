@@ -21,6 +21,13 @@ std::vector<FrontPoint> unbeaten(std::vector<FrontPoint> points) {
   return front;
 }
 
+Status check(double ms, const std::vector<std::string>& locked, const KnobRegistry& knobs) {
+  if (!(ms > 0.0)) return Error{ErrorKind::usage, "a budget is a time above 0 ms"};
+  for (const std::string& name : locked)
+    if (knobs.find(name) == nullptr) return Error{ErrorKind::usage, "unknown knob " + name + " is locked"};
+  return {};
+}
+
 bool names(const FrontPoint& point, const std::string& knob) {
   return std::ranges::find(point.settings, knob, &KnobOverride::name) != point.settings.end();
 }
@@ -28,25 +35,37 @@ bool names(const FrontPoint& point, const std::string& knob) {
 }  // namespace
 
 Result<BudgetControl> BudgetControl::create(FrameBudget budget, const KnobRegistry& knobs) {
-  if (!(budget.ms > 0.0)) return Error{ErrorKind::usage, "a budget is a time above 0 ms"};
+  GLOAM_TRY(check(budget.ms, budget.locked, knobs));
   std::vector<FrontPoint> front = unbeaten(std::move(budget.front));
   if (front.empty()) return Error{ErrorKind::usage, "a budget needs a measured setting to choose"};
-  for (const std::string& name : budget.locked)
-    if (knobs.find(name) == nullptr) return Error{ErrorKind::usage, "unknown knob " + name + " is locked"};
   std::vector<GovernorPoint> points;
   for (const FrontPoint& point : front) points.push_back({point.ms, point.error});
   BudgetControl control(std::move(front), Governor(points, budget.ms));
-  GLOAM_TRY(control.resolve(budget.locked, knobs));
+  GLOAM_TRY(control.resolve(std::move(budget.locked), knobs));
   control.effect_ = std::move(budget.effect);
-  control.locked_ = std::move(budget.locked);
   return control;
 }
 
-Status BudgetControl::resolve(const std::vector<std::string>& locked, const KnobRegistry& knobs) {
+Status BudgetControl::change(double ms, std::vector<std::string> locked, const KnobRegistry& knobs) {
+  GLOAM_TRY(check(ms, locked, knobs));
+  governor_.set_budget(ms);
+  if (locked == locked_) return {};
+  frames_here_ = 0;
+  return resolve(std::move(locked), knobs);
+}
+
+Status BudgetControl::resolve(std::vector<std::string> locked, const KnobRegistry& knobs) {
+  locked_ = std::move(locked);
+  governed_.clear();
+  governed_names_.clear();
+  named_.clear();
+  numbers_.clear();
+  exact_.clear();
   for (std::size_t i = 0; i < knobs.knobs().size(); ++i) {
     const std::string& name = knobs.knobs()[i].name;
     const bool named = std::ranges::any_of(front_, [&](const FrontPoint& point) { return names(point, name); });
-    if (!named || std::ranges::find(locked, name) != locked.end()) continue;
+    if (named) named_.push_back(name);
+    if (!named || std::ranges::find(locked_, name) != locked_.end()) continue;
     governed_.push_back(i);
     governed_names_.push_back(name);
   }
@@ -55,6 +74,11 @@ Status BudgetControl::resolve(const std::vector<std::string>& locked, const Knob
     for (const Knob& knob : values.knobs()) values.set_number(knob, knob.default_number);
     for (const KnobOverride& setting : point.settings) GLOAM_TRY(values.set(setting.name, setting.value));
     for (const std::size_t index : governed_) numbers_.push_back(values.number(values.knobs()[index]));
+    if (&point != &front_.back()) continue;
+    for (const std::size_t index : governed_) {
+      const Knob& knob = values.knobs()[index];
+      exact_.push_back({knob.name, values.text(knob)});
+    }
   }
   return {};
 }
@@ -105,7 +129,9 @@ BudgetState BudgetControl::state() const {
           .cheaper = at > 0 ? std::optional(step_to(at - 1)) : std::nullopt,
           .better = at + 1 < front_.size() ? std::optional(step_to(at + 1)) : std::nullopt,
           .governed = governed_names_,
-          .locked = locked_};
+          .named = named_,
+          .locked = locked_,
+          .exact = exact_};
 }
 
 }  // namespace gloam

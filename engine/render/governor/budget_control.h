@@ -24,6 +24,9 @@ class BudgetControl {
   /// nothing has changed. knobs: those that add() will set.
   [[nodiscard]] static Result<BudgetControl> create(FrameBudget budget, const KnobRegistry& knobs);
 
+  /// Changes the time and the locked knobs. The point in use and what its frames have shown stay. Usage error as of
+  /// create(); then nothing has changed.
+  [[nodiscard]] Status change(double ms, std::vector<std::string> locked, const KnobRegistry& knobs);
   /// Sets the knobs to the point in use.
   void apply(KnobRegistry& knobs) const;
   /// Adds a frame and decides about the next ones. drawn_version: KnobRegistry::version of the values that it was drawn
@@ -39,13 +42,15 @@ class BudgetControl {
       : front_(std::move(front)), governor_(governor) {}
   [[nodiscard]] BudgetStep step_to(std::size_t point) const;
   /// Finds the knobs that points set, and their numbers in each point.
-  [[nodiscard]] Status resolve(const std::vector<std::string>& locked, const KnobRegistry& knobs);
+  [[nodiscard]] Status resolve(std::vector<std::string> locked, const KnobRegistry& knobs);
 
   std::string effect_;
   std::vector<std::string> locked_;
   std::vector<FrontPoint> front_;      ///< the fastest first, each more right than all before it
   std::vector<std::size_t> governed_;  ///< indices into KnobRegistry::knobs()
   std::vector<std::string> governed_names_;
+  std::vector<std::string> named_;
+  std::vector<KnobOverride> exact_;
   std::vector<double> numbers_;  ///< of the governed knobs, point by point
   Governor governor_;
   std::uint32_t frames_here_ = 0;  ///< drawn with the point in use

@@ -23,16 +23,32 @@ Status Budgets::set(FrameBudget budget, std::span<const std::string> effects, Kn
   auto created = BudgetControl::create(std::move(budget), knobs);
   if (!created.ok()) return created.error();
   BudgetControl control = std::move(created).value();
-  for (const BudgetControl& other : controls_)
-    if (other.effect() != control.effect())
-      if (const std::string* knob = control.shared_knob(other))
-        return Error{ErrorKind::usage,
-                     budget_of(other.effect()) + " sets " + *knob + ": lock it in " + budget_of(control.effect())};
+  GLOAM_TRY(check_shared(control));
   control.apply(knobs);
   if (BudgetControl* old = find(control.effect()))
     *old = std::move(control);
   else
     controls_.push_back(std::move(control));
+  return {};
+}
+
+Status Budgets::check_shared(const BudgetControl& control) const {
+  for (const BudgetControl& other : controls_)
+    if (other.effect() != control.effect())
+      if (const std::string* knob = control.shared_knob(other))
+        return Error{ErrorKind::usage,
+                     budget_of(other.effect()) + " sets " + *knob + ": lock it in " + budget_of(control.effect())};
+  return {};
+}
+
+Status Budgets::change(std::string_view effect, double ms, std::vector<std::string> locked, KnobRegistry& knobs) {
+  BudgetControl* control = find(effect);
+  if (control == nullptr) return Error{ErrorKind::usage, budget_of(std::string(effect)) + " is not set"};
+  BudgetControl changed = *control;
+  GLOAM_TRY(changed.change(ms, std::move(locked), knobs));
+  GLOAM_TRY(check_shared(changed));
+  changed.apply(knobs);
+  *control = std::move(changed);
   return {};
 }
 

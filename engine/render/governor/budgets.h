@@ -20,12 +20,18 @@ class Budgets {
   /// Sets or replaces the budget of its effect, and the knobs to the point that it starts with. effects: the valid
   /// names beside the empty one. Usage error as of Renderer::set_budget; then nothing has changed.
   [[nodiscard]] Status set(FrameBudget budget, std::span<const std::string> effects, KnobRegistry& knobs);
+  /// Changes the time and the locked knobs of an effect's budget. Usage error as of Renderer::change_budget; then
+  /// nothing has changed.
+  [[nodiscard]] Status change(std::string_view effect, double ms, std::vector<std::string> locked, KnobRegistry& knobs);
   void clear(std::string_view effect);
   /// nullptr without a budget of this effect.
   [[nodiscard]] BudgetControl* find(std::string_view effect);
   [[nodiscard]] std::vector<BudgetState> states() const;
 
  private:
+  /// Usage error if another budget sets a knob of this one.
+  [[nodiscard]] Status check_shared(const BudgetControl& control) const;
+
   std::vector<BudgetControl> controls_;
 };
 

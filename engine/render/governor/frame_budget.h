@@ -60,7 +60,9 @@ struct BudgetState {
   std::optional<BudgetStep> cheaper = {};  ///< none at the fastest point
   std::optional<BudgetStep> better = {};   ///< none at the most exact point
   std::vector<std::string> governed = {};  ///< knobs that the budget sets
+  std::vector<std::string> named = {};     ///< knobs that the front's points name: governed or locked
   std::vector<std::string> locked = {};    ///< FrameBudget::locked
+  std::vector<KnobOverride> exact = {};    ///< values of the governed knobs in the most exact point
 };
 
 }  // namespace gloam

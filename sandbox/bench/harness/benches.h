@@ -87,6 +87,8 @@ void add_dof_frame_benches(BenchRegistry& registry);
 void add_dof_error_benches(BenchRegistry& registry);
 /// The tables and figures of the papers beside ours: each row runs a bench that was added before.
 void add_paper_benches(BenchRegistry& registry);
+/// Frames under time budgets: their times, the errors against the best of all combinations, changes.
+void add_governor_benches(BenchRegistry& registry);
 /// The cost of jobs, ranges and graphs.
 void add_job_benches(BenchRegistry& registry);
 

@@ -65,6 +65,7 @@ BenchRegistry make_bench_registry() {
   add_frame_benches(registry);
   add_frame_wall_benches(registry);
   add_frame_size_benches(registry);
+  add_governor_benches(registry);
   add_frame_capture_benches(registry);
   add_asset_benches(registry);
   add_light_cpu_benches(registry);

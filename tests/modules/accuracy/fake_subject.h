@@ -36,7 +36,8 @@ class FakeSubject final : public CostSubject {
     knobs_.add(declaration_of(kSamples, "fake"));
     knobs_.add({.name = "fake.look", .module = "fake", .choices = {"warm", "cold"}});
     knobs_.add(declaration_of(kCount, "fake"));
-    knobs_.add({.name = "fake.taste", .module = "fake", .choices = {"warm", "cold"}, .taste = "a look", .is_look = true});
+    knobs_.add(
+        {.name = "fake.taste", .module = "fake", .choices = {"warm", "cold"}, .taste = "a look", .is_look = true});
     knobs_.add(
         {.name = "fake.method", .module = "fake", .choices = {"a", "b", "c"}, .exact = "a", .same_picture = true});
   }

@@ -107,5 +107,63 @@ TEST(Budgets, a_state_says_what_a_step_costs) {
   EXPECT_FALSE(control.state().cheaper) << "the fastest point";
 }
 
+TEST(Budgets, a_changed_time_keeps_the_point_and_what_its_frames_have_shown) {
+  KnobRegistry knobs = budget_knobs();
+  Budgets budgets;
+  ASSERT_TRUE(budgets.set({.ms = 25.0, .front = three_points()}, kEffects, knobs).ok());
+  BudgetControl& control = *budgets.find("");
+  draw_at(control, knobs, 24.0, 20);
+  ASSERT_TRUE(budgets.change("", 30.0, {}, knobs).ok());
+  EXPECT_EQ(control.state().ms, 30.0);
+  EXPECT_EQ(control.state().point, 1u);
+  EXPECT_DOUBLE_EQ(control.state().measured_ms, 24.0);
+  ASSERT_TRUE(budgets.change("", 15.0, {}, knobs).ok());
+  draw_at(control, knobs, 24.0, 1);
+  EXPECT_EQ(control.state().point, 0u);
+  EXPECT_EQ(control.state().last_change.reason, GovernorReason::budget_changed);
+}
+
+TEST(Budgets, a_lock_keeps_a_value_until_it_is_taken_away) {
+  KnobRegistry knobs = budget_knobs();
+  Budgets budgets;
+  ASSERT_TRUE(budgets.set({.ms = 11.0, .front = three_points()}, kEffects, knobs).ok());
+  BudgetControl& control = *budgets.find("");
+  ASSERT_EQ(knob_text(knobs, "shadows.filter"), "hard");
+  ASSERT_TRUE(knobs.set("shadows.filter", "chs").ok());
+  ASSERT_TRUE(budgets.change("", 11.0, {"shadows.filter"}, knobs).ok());
+  EXPECT_EQ(knob_text(knobs, "shadows.filter"), "chs");
+  EXPECT_EQ(knob_text(knobs, "views.scale"), "0.5");
+  EXPECT_THAT(control.state().governed, ::testing::ElementsAre("views.scale"));
+  EXPECT_THAT(control.state().named, ::testing::ElementsAre("shadows.filter", "views.scale"));
+  ASSERT_EQ(control.state().exact.size(), 1u);
+  EXPECT_EQ(control.state().exact[0].name + "=" + control.state().exact[0].value, "views.scale=1");
+  draw_at(control, knobs, 1.0, 400);
+  EXPECT_EQ(control.state().point, 2u);
+  ASSERT_TRUE(knobs.set("shadows.filter", "pcf").ok());
+  ASSERT_TRUE(budgets.change("", 11.0, {}, knobs).ok());
+  EXPECT_EQ(knob_text(knobs, "shadows.filter"), "chs") << "the value of the point in use";
+}
+
+TEST(Budgets, a_change_that_is_refused_changes_nothing) {
+  KnobRegistry knobs = budget_knobs();
+  Budgets budgets;
+  ASSERT_TRUE(budgets.set({.ms = 25.0, .front = three_points(), .locked = {"shadows.filter"}}, kEffects, knobs).ok());
+  ASSERT_TRUE(
+      budgets.set({.effect = "shadows", .ms = 5.0, .front = three_points(), .locked = {"views.scale"}}, kEffects, knobs)
+          .ok());
+  const std::uint64_t version = knobs.version();
+  const auto message = [&](std::string_view effect, double ms, std::vector<std::string> locked) {
+    const Status refused = budgets.change(effect, ms, std::move(locked), knobs);
+    EXPECT_FALSE(refused.ok());
+    return refused.ok() ? std::string() : refused.error().message;
+  };
+  EXPECT_THAT(message("fog", 5.0, {}), HasSubstr("the budget of fog is not set"));
+  EXPECT_THAT(message("", 0.0, {"shadows.filter"}), HasSubstr("above 0 ms"));
+  EXPECT_THAT(message("", 20.0, {"shadow"}), HasSubstr("unknown knob shadow"));
+  EXPECT_THAT(message("", 20.0, {}), HasSubstr("the budget of shadows sets shadows.filter"));
+  EXPECT_EQ(budgets.find("")->state().ms, 25.0);
+  EXPECT_EQ(knobs.version(), version);
+}
+
 }  // namespace
 }  // namespace gloam

@@ -29,7 +29,8 @@ class PanelTest : public ::testing::Test {
                                     visualizer_ = name;
                                     return {};
                                   },
-                                  .scene = scene_};
+                                  .scene = scene_,
+                                  .budgets = budgets_};
     panel_.update(input, {.width = 800, .height = 600, .dt_s = 0.02}, content);
   }
 
@@ -83,6 +84,7 @@ class PanelTest : public ::testing::Test {
   void SetUp() override { click("knobs lamp"); }
 
   const PanelScene* scene_ = nullptr;
+  const PanelBudgets* budgets_ = nullptr;
   Panel panel_;
   PanelInput last_;
 };
@@ -239,6 +241,39 @@ TEST_F(PanelTest, lights_and_scene_pass_on_what_the_user_changes) {
   expect("lamp mute", "mute 0");
   expect("lamp solo", "solo 0");
   expect("lamp intensity", "intensity", 0.8);
+}
+
+TEST_F(PanelTest, budgets_pass_on_what_the_user_changes) {
+  const std::vector<PanelBudget> shown = {
+      {.ms = 33.0, .setting = "setting 1 of 2", .knobs = {{"lamp.filter", "box", false}, {"lamp.share", "50", true}}},
+      {.effect = "lamp", .ms = 5.0, .setting = "setting 1 of 2", .knobs = {{"lamp.samples", "8", false}}}};
+  std::string done;
+  PanelBudgets budgets = {
+      .budgets = shown,
+      .set_ms = [&](std::size_t budget,
+                    double ms) { done = "budget " + std::to_string(budget) + (ms > 500.0 ? " long" : " short"); },
+      .lock = [&](std::size_t budget, const std::string& knob,
+                  bool locked) { done = std::to_string(budget) + (locked ? " locks " : " frees ") + knob; },
+      .wipe = {},
+      .set_wipe = [&](bool on, float at) { done = on ? at > 0.9f ? "wipe at the right" : "wipe" : "no wipe"; }};
+  budgets_ = &budgets;
+  const auto expect = [&](const char* widget, const char* what, double share = 0.5) {
+    done.clear();
+    click(widget, share);
+    EXPECT_EQ(done, what) << widget;
+  };
+  expect("budget", "budget 0 long", 0.98);
+  expect("budget lamp", "budget 1 short", 0.1);
+  expect("lock lamp.filter", "0 locks lamp.filter");
+  expect("lock lamp.share", "0 frees lamp.share");
+  expect("lock lamp.samples", "1 locks lamp.samples");
+  expect("wipe", "wipe", 0.05);
+  EXPECT_EQ(find("wipe line"), nullptr);
+  budgets.wipe.on = true;
+  expect("wipe line", "wipe at the right", 0.98);
+  expect("wipe", "no wipe", 0.05);
+  EXPECT_EQ(budgets.find("lamp.share")->locked, true);
+  EXPECT_EQ(budgets.find("lamp.other"), nullptr);
 }
 
 }  // namespace
