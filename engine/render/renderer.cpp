@@ -57,8 +57,10 @@ std::optional<GovernorDecision> Renderer::add_frame_time(const FrameTime& time) 
   BudgetControl* control = parts_->budgets.find(time.effect);
   if (control == nullptr) return std::nullopt;
   FrameTime own = time;
-  own.judged = own.judged && parts_->last_frame.assets_pending == 0;
-  return control->add(own, parts_->knobs.drawn_version, knobs());
+  own.judged = own.judged && parts_->last_frame.assets_pending == 0 && parts_->resources.pipelines.pending() == 0;
+  const GovernorDecision decision = control->add(own, parts_->knobs.drawn_version, knobs());
+  if (control->take_settled()) parts_->make_pipelines_ahead(*control);
+  return decision;
 }
 
 std::optional<BudgetState> Renderer::budget(std::string_view effect) const {

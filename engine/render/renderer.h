@@ -55,7 +55,8 @@ class Renderer {
   void clear_budget(std::string_view effect = {});
   /// How long the last frame, or an effect in it, took, for the budget of the same effect; call it once a frame for
   /// each budget. Returns what was decided; nothing without such a budget. Frames that were drawn before a change has
-  /// taken effect, and the first after it, are not judged.
+  /// taken effect, the first after it, and those while pipelines are made in the background are not judged. The
+  /// pipelines of the points beside a new one are made there.
   std::optional<GovernorDecision> add_frame_time(const FrameTime& time);
   /// None without such a budget.
   [[nodiscard]] std::optional<BudgetState> budget(std::string_view effect = {}) const;

@@ -216,8 +216,8 @@ struct Ledger {
   std::optional<ModelQuality> model = {};  ///< none without points
 };
 
-/// The ledger's combinations as settings to choose from for a time budget: median times, and mean FLIP against the
-/// whole frame.
+/// The ledger's combinations as settings to choose from for a time budget: median times, all scaled by one factor to
+/// what clocks on the wall showed, and mean FLIP against the whole frame.
 [[nodiscard]] std::vector<FrontPoint> front_points(const Ledger& ledger);
 
 /// "shadows.filter=hard views.scale=0.5"; "default" without settings.

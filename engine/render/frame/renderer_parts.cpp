@@ -44,6 +44,13 @@ PipelineWait RendererParts::pipeline_wait() {
   return {options.readiness, resources.pipelines, options.device->info(), *options.log};
 }
 
+void RendererParts::make_pipelines_ahead(const BudgetControl& control) {
+  for (const int step : {-1, 1}) {
+    KnobRegistry values = knobs.set;
+    if (control.set_neighbour(step, values)) static_cast<void>(modules.shown_pipelines_ready(values, pipeline_wait()));
+  }
+}
+
 void RendererParts::check_idle(std::string_view call) const {
   GLOAM_ASSERT(!drawing, "Renderer::" + std::string(call) + " is called while a frame is being drawn");
 }

@@ -28,6 +28,8 @@ struct RendererParts {
 
   [[nodiscard]] FrameServices services(const KnobRegistry& view_knobs);
   [[nodiscard]] PipelineWait pipeline_wait();
+  /// Requests the pipelines of the points beside the one in use, so that the next change finds them.
+  void make_pipelines_ahead(const BudgetControl& control);
   /// Asserts that no frame is being drawn: modules and targets must not call the renderer. call: "render".
   void check_idle(std::string_view call) const;
 

@@ -83,8 +83,17 @@ Status BudgetControl::resolve(std::vector<std::string> locked, const KnobRegistr
   return {};
 }
 
-void BudgetControl::apply(KnobRegistry& knobs) const {
-  const std::size_t first = governor_.point() * governed_.size();
+void BudgetControl::apply(KnobRegistry& knobs) const { set_point(governor_.point(), knobs); }
+
+bool BudgetControl::set_neighbour(int step, KnobRegistry& knobs) const {
+  const std::size_t at = governor_.point();
+  if (step < 0 ? at == 0 : at + 1 == front_.size()) return false;
+  set_point(step < 0 ? at - 1 : at + 1, knobs);
+  return true;
+}
+
+void BudgetControl::set_point(std::size_t point, KnobRegistry& knobs) const {
+  const std::size_t first = point * governed_.size();
   for (std::size_t i = 0; i < governed_.size(); ++i) {
     const Knob& knob = knobs.knobs()[governed_[i]];
     // A set counts as a change, even with the same value.
@@ -95,10 +104,11 @@ void BudgetControl::apply(KnobRegistry& knobs) const {
 GovernorDecision BudgetControl::add(const FrameTime& time, std::uint64_t drawn_version, KnobRegistry& knobs) {
   const bool drawn_here = drawn_version == knobs.version();
   const bool settled = drawn_here && frames_here_ >= kUnjudged;
-  frames_here_ += drawn_here && frames_here_ < kUnjudged ? 1 : 0;
+  if (drawn_here && frames_here_ < kUnjudged) just_settled_ = ++frames_here_ == kUnjudged;
   const GovernorDecision decision = governor_.add({.ms = time.ms, .judged = time.judged && settled, .view = time.view});
   if (!decision.changed()) return decision;
   frames_here_ = 0;
+  just_settled_ = false;
   ++changes_;
   last_change_ = decision;
   apply(knobs);

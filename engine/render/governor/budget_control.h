@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/core/result.h"
@@ -32,6 +33,11 @@ class BudgetControl {
   /// Adds a frame and decides about the next ones. drawn_version: KnobRegistry::version of the values that it was drawn
   /// with. After a change the knobs have the new point's values. Allocates nothing.
   GovernorDecision add(const FrameTime& time, std::uint64_t drawn_version, KnobRegistry& knobs);
+  /// Whether the point in use has just been drawn often enough to be judged; once after each change of point. Then is
+  /// the time to make the pipelines of the points beside it.
+  [[nodiscard]] bool take_settled() { return std::exchange(just_settled_, false); }
+  /// Sets the governed knobs of `knobs` to a neighbour of the point in use; false: there is none. step: −1 or 1.
+  [[nodiscard]] bool set_neighbour(int step, KnobRegistry& knobs) const;
   [[nodiscard]] BudgetState state() const;
   [[nodiscard]] const std::string& effect() const { return effect_; }
   /// A knob that both budgets set; nullptr if there is none.
@@ -41,6 +47,7 @@ class BudgetControl {
   BudgetControl(std::vector<FrontPoint> front, const Governor& governor)
       : front_(std::move(front)), governor_(governor) {}
   [[nodiscard]] BudgetStep step_to(std::size_t point) const;
+  void set_point(std::size_t point, KnobRegistry& knobs) const;
   /// Finds the knobs that points set, and their numbers in each point.
   [[nodiscard]] Status resolve(std::vector<std::string> locked, const KnobRegistry& knobs);
 
@@ -54,6 +61,7 @@ class BudgetControl {
   std::vector<double> numbers_;  ///< of the governed knobs, point by point
   Governor governor_;
   std::uint32_t frames_here_ = 0;  ///< drawn with the point in use
+  bool just_settled_ = false;
   std::size_t changes_ = 0;
   GovernorDecision last_change_;
 };

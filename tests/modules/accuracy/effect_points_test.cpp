@@ -91,5 +91,24 @@ TEST(EffectPoints, without_rows_or_passes_there_are_none) {
   EXPECT_TRUE(effect_points({}, "fog", effect_knobs()).empty());
 }
 
+TEST(FrontPoints, times_are_those_on_the_wall_and_keep_their_ratios) {
+  Ledger ledger;
+  for (const double ms : {10.0, 20.0, 40.0}) {
+    LedgerPoint& point = ledger.points.emplace_back();
+    point.measured.ms.median_ms = ms;
+    point.measured.wall_ms = 1.5 * ms;
+    point.measured.flip = ErrorPair{0.1, 0.2};
+  }
+  ledger.points[2].measured.wall_ms = 400.0;  // beside other work
+  const std::vector<FrontPoint> points = front_points(ledger);
+  ASSERT_EQ(points.size(), 3u);
+  EXPECT_DOUBLE_EQ(points[0].ms, 15.0);
+  EXPECT_DOUBLE_EQ(points[2].ms, 60.0);
+  for (LedgerPoint& point : ledger.points) point.measured.wall_ms = 0.0;
+  EXPECT_DOUBLE_EQ(front_points(ledger)[1].ms, 20.0) << "a ledger without";
+  ledger.points[1].measured.flip.reset();
+  EXPECT_EQ(front_points(ledger).size(), 2u);
+}
+
 }  // namespace
 }  // namespace gloam

@@ -74,6 +74,32 @@ TEST(BudgetControl, frames_of_earlier_values_and_the_first_of_new_ones_are_not_j
   EXPECT_TRUE(draw(*control, knobs, 500.0, 20).changed());
 }
 
+TEST(BudgetControl, neighbours_are_asked_for_once_after_each_change) {
+  KnobRegistry knobs = budget_knobs();
+  auto control = BudgetControl::create({.ms = 25.0, .front = three_points()}, knobs);
+  ASSERT_TRUE(control.ok());
+  control->apply(knobs);
+  EXPECT_FALSE(control->take_settled()) << "nothing is drawn yet";
+  int settled = 0;
+  for (int frame = 0; frame < 20; ++frame) {
+    draw(*control, knobs, 15.0);
+    settled += control->take_settled() ? 1 : 0;
+  }
+  EXPECT_EQ(settled, 1);
+  const std::uint64_t version = knobs.version();
+  KnobRegistry values = knobs;
+  ASSERT_TRUE(control->set_neighbour(1, values));
+  EXPECT_EQ(test::knob_text(values, "shadows.filter"), "chs");
+  ASSERT_TRUE(control->set_neighbour(-1, values));
+  EXPECT_EQ(test::knob_text(values, "views.scale"), "0.5");
+  EXPECT_EQ(knobs.version(), version);
+  draw(*control, knobs, 90.0, 8);  // to the fastest point
+  EXPECT_EQ(control->state().point, 0u);
+  EXPECT_FALSE(control->set_neighbour(-1, values));
+  draw(*control, knobs, 90.0, 2);
+  EXPECT_TRUE(control->take_settled());
+}
+
 TEST(BudgetControl, points_that_others_beat_are_left_out) {
   std::vector<FrontPoint> front = three_points();
   front.push_back({.ms = 45.0, .error = 0.2, .settings = {{"fog.radius", "1"}}});
