@@ -66,8 +66,8 @@ void add_machine_options(CLI::App& app, Options& options, RawTexts& raw) {
   app.add_option(
          "--out", options.out,
          "Picture to write: .png, or .exr for linear light, or with --view for its values (default out/<scene>.png); "
-         "render --frames N: frame_%04d.png writes all frames; cost: folder of the ledger; bake: folder for pictures "
-         "of the captures")
+         "render --frames N: frame_%04d.png writes all frames; cost: folder of the ledger; bench governor: folder for "
+         "the times of all frames; bake: folder for pictures of the captures")
       ->type_name("FILE");
   app.add_option("--stats", options.stats, "Write times, memory and counters as JSON")->type_name("FILE");
   app.add_option("--trace", options.trace, "Write a Chrome trace of systems and passes")->type_name("FILE");
@@ -408,7 +408,7 @@ Result<std::variant<Options, PrintAndLeave>> parse_options(std::span<const std::
   options.fixed_step = options.command != Command::play || chosen->count("--dt") > 0;
   if (chosen->count("--cache-dir") == 0) options.cache_dir = default_cache_directory();
   if (options.scene.empty() && (options.command == Command::play || options.command == Command::bench)) {
-    options.scene = "builtin:lanterns";
+    options.scene = options.command == Command::play ? "builtin:dusk" : "builtin:lanterns";
     options.scene_is_default = true;
   }
   if (!options.scene_list.empty()) options.shared_arguments = shared_arguments(*chosen);

@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: The gloam authors
 # SPDX-License-Identifier: MIT
 # Builds the program and runs it. usage: scripts/run.sh [arguments of gloam]
-# Without arguments: shows builtin:lanterns in a window if there is a display, otherwise renders it to out/lanterns.png.
+# Without arguments: shows builtin:dusk in a window if there is a display, otherwise renders it to out/dusk.png.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 started_in=$PWD
@@ -18,7 +18,7 @@ if [ $# -gt 0 ]; then
   exec "$root/build/bin/gloam" "$@"
 fi
 if [ -n "${DISPLAY:-}" ] || [ -n "${WAYLAND_DISPLAY:-}" ]; then
-  exec build/bin/gloam play builtin:lanterns
+  exec build/bin/gloam play builtin:dusk
 fi
-build/bin/gloam render builtin:lanterns --out out/lanterns.png --quiet
-echo "there is no display: the picture is $root/out/lanterns.png"
+build/bin/gloam render builtin:dusk --out out/dusk.png --quiet
+echo "there is no display: the picture is $root/out/dusk.png"

@@ -24,10 +24,10 @@
 #include "sandbox/session/baking/captures.h"
 #include "sandbox/session/drawing/session_costs.h"
 #include "sandbox/session/loading/kept_ledger.h"
+#include "sandbox/session/loading/ledger_header.h"
 #include "sandbox/session/loading/scene_files.h"
 #include "sandbox/session/loading/scene_loading.h"
 #include "sandbox/session/program_knobs.h"
-#include "sandbox/session/results/ledger_header.h"
 #include "sandbox/session/session.h"
 
 namespace gloam {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/core/text/nearest_name.h"
+#include "sandbox/scenes/dusk/scene.h"
 #include "sandbox/scenes/lamps/backlight.h"
 #include "sandbox/scenes/lamps/closeups.h"
 #include "sandbox/scenes/lamps/lanterns.h"
@@ -23,6 +24,8 @@ namespace gloam {
 namespace {
 
 constexpr BuiltinScene kScenes[] = {
+    {"dusk", "the showcase of all effects: a wet street with shops, stalls and a fire beside a lawn, after sunset",
+     &build_dusk_scene},
     {"plain", "geometry and materials under one sun", &build_plain_scene},
     {"lanterns", "256 coloured point and spot lights between arches", &build_lanterns_scene},
     {"many_lights", "1024 small lights among stones and glass on hills, and a moon", &build_many_lights_scene},

@@ -12,7 +12,7 @@
 
 namespace gloam {
 
-/// A scene built by code. Each shows one effect.
+/// A scene built by code. Each shows one effect; dusk shows all of them.
 struct BuiltinScene {
   std::string_view name;
   std::string_view shows;

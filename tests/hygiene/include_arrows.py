@@ -66,7 +66,7 @@ ROOMS = {
                       ("view", "outputs", "frame_builder", "host_geometry", "module", "view_request", "frame_report",
                        "renderer_options", "board")),
     "sandbox/output": (("pictures",), ("file_io", "json_text")),
-    "sandbox/scenes": (("construction", "lamps", "meadow", "wet_street"), ()),
+    "sandbox/scenes": (("construction", "street", "dusk", "lamps", "meadow", "wet_street"), ()),
     "sandbox/session": (("loading", "baking", "drawing", "results"), ("program_knobs", "session")),
     "sandbox/play": (("input", "display", "budget", "start"), ()),
     "sandbox/bench": (("harness", "ecs", "jobs", "frame", "governor", "lights", "shadows", "closeups", "reflections", "grass",

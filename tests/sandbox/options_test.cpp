@@ -86,9 +86,9 @@ TEST(Options, set_may_be_repeated_and_does_not_swallow_the_scene) {
   EXPECT_EQ(options.scene, "scene.gltf");
 }
 
-TEST(Options, play_shows_the_lanterns_until_the_window_is_closed) {
+TEST(Options, play_shows_the_dusk_until_the_window_is_closed) {
   const Options options = parsed({"play"});
-  EXPECT_EQ(options.scene, "builtin:lanterns");
+  EXPECT_EQ(options.scene, "builtin:dusk");
   EXPECT_EQ(options.frames, 0u);
   EXPECT_FALSE(options.fixed_step);
   EXPECT_TRUE(parsed({"play", "--dt", "0.1"}).fixed_step);

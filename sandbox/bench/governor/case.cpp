@@ -16,8 +16,8 @@
 #include "sandbox/session/drawing/enlarged.h"
 #include "sandbox/session/drawing/session_costs.h"
 #include "sandbox/session/loading/kept_ledger.h"
+#include "sandbox/session/loading/ledger_header.h"
 #include "sandbox/session/program_knobs.h"
-#include "sandbox/session/results/ledger_header.h"
 
 namespace gloam {
 namespace {

@@ -16,7 +16,7 @@ constexpr double kToNorth = kPi;        // faces −Z
 constexpr double kToSouth = 0.0;        // faces +Z
 
 /// A box between two corners, with the mesh standing on its lower face.
-void add_block(WetStreet& street, const std::string& name, std::uint32_t material, dvec3 min, dvec3 max) {
+void add_block(Street& street, const std::string& name, std::uint32_t material, dvec3 min, dvec3 max) {
   street.builder.add_instance(name, street.builder.add_mesh(name, box_shape(vec3(max - min)), material),
                               {0.5 * (min.x + max.x), min.y, 0.5 * (min.z + max.z)});
 }
@@ -32,7 +32,7 @@ Facade row_facade(const char* name, double side, double z0, double z1, float hei
   return facade;
 }
 
-void add_street_ground(WetStreet& street) {
+void add_street_ground(Street& street) {
   const StreetMaterials& m = street.materials;
   add_block(street, "road", m.asphalt, {-kStreetKerbX, -0.3, kStreetNorthZ}, {kStreetKerbX, 0.0, kStreetSouthZ});
   add_block(street, "alley road", m.asphalt, {kStreetKerbX, -0.3, kAlleyNorthZ}, {kAlleyEndX, 0.0, kAlleySouthZ});
@@ -56,7 +56,7 @@ void add_street_ground(WetStreet& street) {
 }
 
 /// Patches of newer asphalt, manholes and a crossing, 2 mm above the road.
-void add_road_marks(WetStreet& street) {
+void add_road_marks(Street& street) {
   SceneBuilder& builder = street.builder;
   const auto mark = [&](const char* name, std::uint32_t material, double x, double z, vec2 size) {
     const std::uint32_t mesh = builder.add_mesh(name, box_shape({size.x, 0.012f, size.y}), material);
@@ -78,7 +78,7 @@ void add_road_marks(WetStreet& street) {
     street.world.get<MeshInstance>(builder.add_instance("manhole", mesh, at)).casts_shadows = false;
 }
 
-void add_left_row(WetStreet& street) {
+void add_left_row(Street& street) {
   Facade f = row_facade("left 1", -1.0, kStreetSouthZ, -3.0, 9.0f);
   f.shops = 3, f.columns = 6, f.wall = 0, f.first_shop = 0, f.low_proxies = 2, f.high_proxies = 2;
   add_facade(street, f);
@@ -96,7 +96,7 @@ void add_left_row(WetStreet& street) {
   add_facade(street, f);
 }
 
-void add_right_row(WetStreet& street) {
+void add_right_row(Street& street) {
   Facade f = row_facade("right 1", 1.0, kStreetSouthZ, kTerraceFrontZ, 9.5f);
   f.shops = 3, f.columns = 7, f.wall = 1, f.first_shop = 1, f.low_proxies = 2, f.high_proxies = 2;
   add_facade(street, f);
@@ -116,7 +116,7 @@ void add_right_row(WetStreet& street) {
 }
 
 /// The wall behind the street's south end, and the clock tower between two wings at its north end.
-void add_street_ends(WetStreet& street) {
+void add_street_ends(Street& street) {
   Facade f{.name = "south", .foot = {0.0, 0.0, kStreetSouthZ}, .heading = kToNorth, .width_m = 11.0f, .height_m = 9.0f};
   f.columns = 5, f.wall = 2;
   add_facade(street, f);
@@ -154,7 +154,7 @@ void add_street_ends(WetStreet& street) {
 }
 
 /// Two piers and a house above the road, with facades to both sides. Its passage joins the two halves of the street.
-void add_gatehouse(WetStreet& street) {
+void add_gatehouse(Street& street) {
   constexpr double kHeight = 9.5, kMiddleZ = 0.5 * (kGateSouthZ + kGateNorthZ);
   constexpr double kPierX = 0.5 * (kStreetKerbX + kStreetFacadeX);
   const auto depth = static_cast<float>(0.5 * (kGateSouthZ - kGateNorthZ));
@@ -193,7 +193,7 @@ void add_gatehouse(WetStreet& street) {
                    {static_cast<float>(2.0 * kStreetKerbX), length});
 }
 
-void add_alley(WetStreet& street) {
+void add_alley(Street& street) {
   const double width = kAlleyEndX - kStreetFacadeX;
   Facade f{.name = "alley north",
            .foot = {kStreetFacadeX + 0.5 * width, 0.0, kAlleyNorthZ},
@@ -238,7 +238,7 @@ void add_alley(WetStreet& street) {
                               {0.0, 0.0, kAlleySouthZ - 0.65});
 }
 
-void add_terrace(WetStreet& street) {
+void add_terrace(Street& street) {
   add_block(street, "terrace", street.materials.tiles,
             {kStreetFacadeX + 0.02, kTerraceFloorY - 0.04, kAlleySouthZ + 0.02},
             {kTerraceBackX + 0.1, kTerraceFloorY, kTerraceFrontZ});
@@ -263,7 +263,7 @@ void add_terrace(WetStreet& street) {
 }
 
 /// A flat canopy over a shop of the right row, with a sign on its edge and a proxy below.
-void add_canopy(WetStreet& street) {
+void add_canopy(Street& street) {
   const dvec3 min(kStreetFacadeX - 1.5, 3.34, -5.6), max(kStreetFacadeX, 3.42, -1.4);
   const StreetMaterials& m = street.materials;
   add_block(street, "canopy", m.cloth, min, max);
@@ -279,7 +279,7 @@ void add_canopy(WetStreet& street) {
 
 }  // namespace
 
-void add_street_buildings(WetStreet& street) {
+void add_street_buildings(Street& street) {
   add_street_ground(street);
   add_road_marks(street);
   add_left_row(street);

@@ -14,7 +14,7 @@ constexpr vec3 kSodium(1.0f, 0.66f, 0.30f);
 constexpr vec3 kWarm(1.0f, 0.78f, 0.50f);
 constexpr vec3 kCool(0.62f, 0.78f, 1.0f);
 
-std::uint32_t add_glow(WetStreet& street, const std::string& name, vec3 luminance) {
+std::uint32_t add_glow(Street& street, const std::string& name, vec3 luminance) {
   return street.builder.add_material({.name = name,
                                       .base_color = vec4(0.02f, 0.02f, 0.02f, 1.0f),
                                       .emissive = luminance,
@@ -23,7 +23,7 @@ std::uint32_t add_glow(WetStreet& street, const std::string& name, vec3 luminanc
 }
 
 /// Ten posts at the kerbs, each with an arm over the road and a hood above its bulb: spot lights, eight of which cast.
-void add_street_lamps(WetStreet& street) {
+void add_street_lamps(Street& street) {
   SceneBuilder& builder = street.builder;
   const std::uint32_t iron = street.materials.iron;
   const vec2 shaft[] = {{0.0f, 0.0f},   {0.14f, 0.0f},  {0.14f, 0.5f},  {0.07f, 0.62f},
@@ -57,7 +57,7 @@ void add_street_lamps(WetStreet& street) {
 }
 
 /// A burning barrel, with its proxy.
-void add_street_fire(WetStreet& street, dvec3 at) {
+void add_street_fire(Street& street, dvec3 at) {
   SceneBuilder& builder = street.builder;
   const vec2 barrel[] = {{0.0f, 0.0f},   {0.29f, 0.0f},  {0.29f, 0.28f}, {0.31f, 0.3f}, {0.29f, 0.32f}, {0.29f, 0.6f},
                          {0.31f, 0.62f}, {0.29f, 0.64f}, {0.29f, 0.9f},  {0.27f, 0.9f}, {0.26f, 0.7f},  {0.0f, 0.7f}};
@@ -92,7 +92,7 @@ struct WallLamp {
   bool casts;
 };
 
-void add_wall_lamps(WetStreet& street) {
+void add_wall_lamps(Street& street) {
   const vec2 lantern[] = {{0.0f, -0.14f}, {0.05f, -0.14f}, {0.09f, 0.1f}, {0.0f, 0.16f}};
   const std::uint32_t warm =
       street.builder.add_mesh("lantern", turned_shape(lantern, 10), add_glow(street, "lantern", kWarm * 6.0f));
@@ -124,7 +124,7 @@ void add_wall_lamps(WetStreet& street) {
 }
 
 /// Bulbs on two cords over the terrace.
-void add_street_garlands(WetStreet& street) {
+void add_street_garlands(Street& street) {
   const std::uint32_t bulb =
       street.builder.add_mesh("small bulb", sphere_shape(0.055f, 10), add_glow(street, "small bulb", kWarm * 9.0f));
   const std::uint32_t cord =
@@ -152,7 +152,7 @@ void add_street_garlands(WetStreet& street) {
 }
 
 /// Lamps below the canopy and in the passage, and a wash of light on the clock tower.
-void add_hidden_lamps(WetStreet& street) {
+void add_hidden_lamps(Street& street) {
   const std::uint32_t disc =
       street.builder.add_mesh("ceiling lamp", sphere_shape(0.08f, 12), add_glow(street, "ceiling lamp", kWarm * 7.0f));
   const auto add_ceiling_lamp = [&](const std::string& name, dvec3 at, float candela) {
@@ -171,7 +171,7 @@ void add_hidden_lamps(WetStreet& street) {
 
 }  // namespace
 
-void add_street_lights(WetStreet& street) {
+void add_street_lights(Street& street) {
   add_street_lamps(street);
   add_street_fire(street, {-2.2, 0.0, -4.6});
   add_wall_lamps(street);

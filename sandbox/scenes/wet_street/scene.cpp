@@ -54,7 +54,7 @@ Primitive puddle_shape(float radius_x, float radius_z, float seed) {
   return sheet;
 }
 
-void add_puddles(WetStreet& street) {
+void add_puddles(Street& street) {
   std::array<std::uint32_t, kRoughness.size()> water{};
   for (std::size_t i = 0; i < water.size(); ++i) {
     Material material{.name = "puddle " + std::to_string(i),
@@ -78,8 +78,7 @@ void add_puddles(WetStreet& street) {
 }
 
 /// A room and its probe, each a box between two corners.
-void add_street_room(WetStreet& street, const std::string& name, dvec3 min, dvec3 max, dvec3 probe_min,
-                     dvec3 probe_max) {
+void add_street_room(Street& street, const std::string& name, dvec3 min, dvec3 max, dvec3 probe_min, dvec3 probe_max) {
   const Entity room = street.builder.add_group("room " + name, 0.5 * (min + max));
   street.world.add<IbrRoom>(room, {.size_m = vec3(max - min)});
   if (name == "terrace") {
@@ -92,7 +91,7 @@ void add_street_room(WetStreet& street, const std::string& name, dvec3 min, dvec
   street.world.add<CubeProbe>(probe, {.size_m = vec3(probe_max - probe_min), .resolution = 128, .global = false});
 }
 
-void add_rooms(WetStreet& street) {
+void add_rooms(Street& street) {
   constexpr double kRoomX = kStreetFacadeX + 0.3;
   // The passage of the gatehouse lies in both halves of the street; the alley's room reaches across the street, so
   // that the houses opposite its mouth belong to it. Probes reach a little behind the walls they show.
@@ -109,7 +108,7 @@ void add_rooms(WetStreet& street) {
 
 void build_wet_street_scene(World& world, SceneInfo& info) {
   SceneBuilder builder(world, info);
-  WetStreet street{world, builder, add_street_materials(world, builder)};
+  Street street{world, builder, add_street_materials(world, builder)};
   add_street_buildings(street);
   add_puddles(street);
   add_street_things(street);

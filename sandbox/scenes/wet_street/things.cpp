@@ -11,7 +11,7 @@ namespace {
 
 const dquat kYToX(std::sqrt(0.5), 0.0, 0.0, -std::sqrt(0.5));  // a rotation that takes +Y to +X
 
-void add_street_figure(WetStreet& street, dvec3 at, double heading) {
+void add_street_figure(Street& street, dvec3 at, double heading) {
   const StreetMaterials& m = street.materials;
   const vec2 coat[] = {{0.0f, 0.45f}, {0.22f, 0.45f}, {0.17f, 0.85f}, {0.15f, 1.0f},
                        {0.2f, 1.32f}, {0.16f, 1.42f}, {0.05f, 1.5f},  {0.0f, 1.52f}};
@@ -30,7 +30,7 @@ void add_street_figure(WetStreet& street, dvec3 at, double heading) {
   add("handle", box_shape({0.02f, 1.1f, 0.02f}), m.iron, {0.1, 1.0, 0.1});
 }
 
-void add_van(WetStreet& street, double x, double rear_z) {
+void add_van(Street& street, double x, double rear_z) {
   const StreetMaterials& m = street.materials;
   const std::uint32_t red = street.builder.add_material({.name = "tail light",
                                                          .base_color = vec4(0.05f, 0.01f, 0.01f, 1.0f),
@@ -60,7 +60,7 @@ void add_van(WetStreet& street, double x, double rear_z) {
   add_street_proxy(street, "van", {x, 1.2, rear_z + 0.03}, {0.0, 0.0, 1.0}, {1.8f, 1.66f});
 }
 
-void add_small_things(WetStreet& street) {
+void add_small_things(Street& street) {
   const StreetMaterials& m = street.materials;
   SceneBuilder& builder = street.builder;
   const vec2 bollard[] = {{0.0f, 0.0f},   {0.1f, 0.0f},   {0.07f, 0.08f}, {0.06f, 0.72f},
@@ -99,7 +99,7 @@ void add_small_things(WetStreet& street) {
 }
 
 /// A railing along the local x axis from its start, at `heading`.
-void add_railing(WetStreet& street, dvec3 start, double heading, float length_m) {
+void add_railing(Street& street, dvec3 start, double heading, float length_m) {
   Primitive bars;
   for (const float y : {0.12f, 1.0f})
     append_shape(bars, box_shape({length_m, 0.04f, 0.04f}), {0.5f * length_m, y, 0.0f});
@@ -116,7 +116,7 @@ void add_railing(WetStreet& street, dvec3 start, double heading, float length_m)
 
 }  // namespace
 
-void add_street_things(WetStreet& street) {
+void add_street_things(Street& street) {
   add_street_figure(street, {1.05, 0.0, -3.2}, 0.5);
   add_van(street, 2.0, -11.5);
   add_small_things(street);

@@ -7,7 +7,7 @@
 
 #include "modules/accuracy/module.h"
 #include "sandbox/session/drawing/session_costs.h"
-#include "sandbox/session/results/ledger_header.h"
+#include "sandbox/session/loading/ledger_header.h"
 
 namespace gloam {
 namespace {

@@ -170,8 +170,10 @@ std::string stats_json(const RunDescription& run, std::span<const FrameSample> s
   json["modules"] = modules_json(last);
   json["counters"] = counters;
   json["knobs"] = knobs_json(knobs);
-  for (const BudgetState& budget : run.budgets)
-    (budget.effect.empty() ? json["budget"] : json["effect_budgets"][budget.effect]) = budget_json(budget);
+  for (const BudgetState& budget : run.budgets) {
+    if (budget.effect.empty() || !json.contains("budget")) json["budget"] = budget_json(budget);
+    if (!budget.effect.empty()) json["effect_budgets"][budget.effect] = budget_json(budget);
+  }
   return json_text(json);
 }
 

@@ -26,8 +26,8 @@ struct RunDescription {
 };
 
 /// The JSON text of `--stats` (schema version 1). samples: all frames of the run, in order, at least one. If there are
-/// several, the times leave out the first. "in_flight" is absent if it is 1, "budget" without one for frames, and
-/// "effect_budgets" without one for an effect. Times of a
+/// several, the times leave out the first. "in_flight" is absent if it is 1, "budget" without a budget, and
+/// "effect_budgets" without one for an effect; "budget" is that of frames, or else of the first effect. Times of a
 /// system or pass are over the frames in which it ran; several calls of one name in a frame are added up. Counters and
 /// memory are those of the last frame, together with `extra_counters`. Figures that are not measured (bytes on the CPU)
 /// are absent.

@@ -97,8 +97,8 @@ class Usage(ProgramCase):
 
     def test_scenes_are_one_a_line(self):
         lines = self.expect(0, "scenes").stdout.splitlines()
-        names = ["plain", "lanterns", "many_lights", "penumbra", "shadows", "shadow_grid", "closeups", "wet_street", "meadow",
-                 "meadow_day", "smoke", "lens", "backlight"]
+        names = ["dusk", "plain", "lanterns", "many_lights", "penumbra", "shadows", "shadow_grid", "closeups", "wet_street",
+                 "meadow", "meadow_day", "smoke", "lens", "backlight"]
         self.assertEqual([line.split()[0] for line in lines], ["builtin:" + name for name in names])
         for line in lines:
             self.assertGreater(len(line.split()), 3)

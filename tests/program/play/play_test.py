@@ -20,10 +20,10 @@ class Play(WindowCase):
     def test_it_draws_some_frames_and_ends(self):
         self.expect(0, "play", "builtin:plain", "--size", "160x90", "--frames", "3", prefix=PREFIX)
 
-    def test_the_lanterns_are_the_default_and_leave_stats(self):
+    def test_the_dusk_is_the_default_and_leaves_stats(self):
         self.expect(0, "play", "--size", "160x90", "--frames", "3", "--dt", "0.1", "--stats", "stats.json", "--out", "last.png",
                     prefix=PREFIX)
-        self.assertEqual(self.read_json("stats.json")["scene"], "builtin:lanterns")
+        self.assertEqual(self.read_json("stats.json")["scene"], "builtin:dusk")
         self.assertTrue((self.folder / "last.png").exists())
 
     def test_the_panel_is_drawn_over_the_picture_in_a_pass_of_its_own(self):

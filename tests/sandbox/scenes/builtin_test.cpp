@@ -53,7 +53,7 @@ TEST(BuiltinScenes, an_unknown_name_is_wrong_usage_that_lists_the_names) {
   const auto scene = find_builtin_scene("lantern");
   ASSERT_FALSE(scene.ok());
   EXPECT_EQ(scene.error().kind, ErrorKind::usage);
-  EXPECT_NE(scene.error().message.find("did you mean lanterns? there are plain, lanterns"), std::string::npos)
+  EXPECT_NE(scene.error().message.find("did you mean lanterns? there are dusk, plain, lanterns"), std::string::npos)
       << scene.error().message;
   EXPECT_EQ(find_builtin_scene("moon").error().message.find("did you mean"), std::string::npos);
 }

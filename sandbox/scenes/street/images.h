@@ -8,7 +8,7 @@
 
 namespace gloam {
 
-/// Images of builtin:wet_street, computed: sRGB colours that materials multiply with their emissive colour.
+/// Images of streets, computed: sRGB colours that materials multiply with their emissive colour.
 
 /// A lit shop seen through its window: goods on shelves under a lamp strip.
 [[nodiscard]] Image shelves_image();

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "sandbox/scenes/wet_street/images.h"
+#include "sandbox/scenes/street/images.h"
 
 #include <algorithm>
 #include <array>

@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "engine/scene/assets.h"
-#include "sandbox/scenes/wet_street/images.h"
-#include "sandbox/scenes/wet_street/parts.h"
+#include "sandbox/scenes/street/images.h"
+#include "sandbox/scenes/street/parts.h"
 
 namespace gloam {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "sandbox/session/results/ledger_header.h"
+#include "sandbox/session/loading/ledger_header.h"
 
 #include <string>
 

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "sandbox/scenes/construction/shapes.h"
-#include "sandbox/scenes/wet_street/parts.h"
+#include "sandbox/scenes/street/parts.h"
 
 namespace gloam {
 namespace {
@@ -135,7 +135,7 @@ dvec3 to_world(const Facade& f, dvec3 local) {
   return f.foot + dvec3(local.x * c + local.z * s, local.y, local.z * c - local.x * s);
 }
 
-void add_facade_proxies(WetStreet& street, const Facade& f) {
+void add_facade_proxies(Street& street, const Facade& f) {
   const dvec3 normal = to_world(f, {0.0, 0.0, 1.0}) - f.foot;
   const auto add_row = [&](const char* row, int count, float y0, float y1) {
     const float width = f.width_m / static_cast<float>(std::max(count, 1));
@@ -152,7 +152,7 @@ void add_facade_proxies(WetStreet& street, const Facade& f) {
 
 }  // namespace
 
-void add_facade(WetStreet& street, const Facade& f) {
+void add_facade(Street& street, const Facade& f) {
   const StreetMaterials& m = street.materials;
   FacadeShapes shapes;
   shapes.box(m.walls[f.wall], {-0.5f * f.width_m, 0.0f, -f.depth_m}, {0.5f * f.width_m, f.height_m - 0.05f, -kLayer});
@@ -188,7 +188,7 @@ void add_facade(WetStreet& street, const Facade& f) {
   add_facade_proxies(street, f);
 }
 
-Entity add_street_proxy(WetStreet& street, const std::string& name, dvec3 center, dvec3 normal, vec2 size_m) {
+Entity add_street_proxy(Street& street, const std::string& name, dvec3 center, dvec3 normal, vec2 size_m) {
   const Entity entity = street.builder.add_group("proxy " + name, center);
   street.world.get<LocalTransform>(entity).rotation = rotation_towards(-normal);
   IbrProxy proxy;
@@ -197,8 +197,8 @@ Entity add_street_proxy(WetStreet& street, const std::string& name, dvec3 center
   return entity;
 }
 
-void add_street_lamp(WetStreet& street, const std::string& name, const StreetLamp& lamp, dvec3 position,
-                     dvec3 direction, bool casts_shadows) {
+void add_street_lamp(Street& street, const std::string& name, const StreetLamp& lamp, dvec3 position, dvec3 direction,
+                     bool casts_shadows) {
   Light light;
   light.kind = lamp.outer_angle > 0.0f ? LightKind::spot : LightKind::point;
   light.color = lamp.color;
