@@ -58,9 +58,9 @@ struct GovernedFigures {
 };
 [[nodiscard]] GovernedFigures figures_of(const GovernedRun& run);
 
-/// Error at the end of a run over the least error of the tried settings that fit. Errors below 0.001 count as 0.001:
-/// nobody sees them.
-[[nodiscard]] double error_over_best(const GovernedScene& scene, const GovernedRun& run);
+/// Error at the end of a run over the least error of the tried settings that fit into a share of the budget. Errors
+/// below 0.001 count as 0.001: nobody sees them.
+[[nodiscard]] double error_over_best(const GovernedScene& scene, const GovernedRun& run, double share = 1.0);
 
 /// Measures ledger, combinations and runs: several minutes.
 [[nodiscard]] Result<GovernedScene> measure_governed_scene(BenchContext& context, const std::string& scene);

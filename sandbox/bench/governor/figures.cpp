@@ -51,13 +51,13 @@ GovernedFigures figures_of(const GovernedRun& run) {
   return figures;
 }
 
-double error_over_best(const GovernedScene& scene, const GovernedRun& run) {
+double error_over_best(const GovernedScene& scene, const GovernedRun& run, double share) {
   const GovernedFrame& last = run.frames.back();
   // What frames take on the wall, over the ledger's time of the same setting.
   const double scale = settled_ms(run) / scene.front[last.point].ms;
   double best = last.error;
   for (const TriedSetting& tried : scene.tried)
-    if (tried.ms * scale <= run.budget_ms) best = std::min(best, tried.error);
+    if (tried.ms * scale <= share * run.budget_ms) best = std::min(best, tried.error);
   return std::max(last.error, kVisibleError) / std::max(best, kVisibleError);
 }
 

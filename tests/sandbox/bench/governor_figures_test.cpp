@@ -52,6 +52,7 @@ TEST(GovernorFigures, the_error_is_compared_with_the_best_setting_that_fits_on_t
   // Frames of 20 ms at a point of 10: what takes up to 12.5 by the ledger fits into 25.
   scene.tried = {{.ms = 4.0, .error = 0.06}, {.ms = 12.4, .error = 0.016}, {.ms = 12.6, .error = 0.001}};
   EXPECT_DOUBLE_EQ(error_over_best(scene, steady_run()), 0.02 / 0.016);
+  EXPECT_DOUBLE_EQ(error_over_best(scene, steady_run(), 0.9), 1.0) << "12.4 leave no 10 % to spare";
   scene.tried[1].error = 0.03;
   EXPECT_DOUBLE_EQ(error_over_best(scene, steady_run()), 1.0) << "the governor's is the best";
   GovernedRun exact = steady_run();
