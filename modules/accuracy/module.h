@@ -108,7 +108,7 @@ enum class CostPhase {
 inline constexpr std::size_t kCostPhases = 8;
 [[nodiscard]] std::string_view name_of(CostPhase phase);
 
-/// Callbacks for progress bars. `done` and `total` count rows.
+/// Callbacks for progress bars; those of this class do nothing. `done` and `total` count rows.
 class CostProgress {
  public:
   virtual ~CostProgress() = default;
@@ -116,9 +116,10 @@ class CostProgress {
   virtual void begin_camera(std::size_t /*camera*/, std::size_t /*cameras*/) {}
   /// All rows of the camera, in the order in which finished() tells of them.
   virtual void plan(const std::vector<PlannedRow>& /*rows*/) {}
-  virtual void measuring(const std::string& knob, const std::string& value, std::size_t done, std::size_t total) = 0;
+  virtual void measuring(const std::string& /*knob*/, const std::string& /*value*/, std::size_t /*done*/,
+                         std::size_t /*total*/) {}
   /// `resumed`: the row was found in the folder and nothing was drawn.
-  virtual void finished(const LedgerRow& row, bool resumed) = 0;
+  virtual void finished(const LedgerRow& /*row*/, bool /*resumed*/) {}
   /// The same for combinations. `setting`: settings_text().
   virtual void measuring_point(const std::string& setting, std::size_t done, std::size_t total) {
     measuring("point", setting, done, total);

@@ -22,13 +22,6 @@ constexpr std::size_t kMostFrames = 10;
 
 double steady_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-/// Pictures of a short ledger are not kept.
-class NoProgress final : public CostProgress {
- public:
-  void measuring(const std::string&, const std::string&, std::size_t, std::size_t) override {}
-  void finished(const LedgerRow&, bool) override {}
-};
-
 class ShortRun {
  public:
   ShortRun(const ShortLedgerRequest& request, CostSubject& subject)
@@ -87,7 +80,7 @@ class ShortRun {
     }
     row.reference_kind = kWholeFrameKind;
     row.reference_name = "the settings that the program began with";
-    NoProgress progress;
+    CostProgress progress;  // pictures are not kept
     GLOAM_TRY(compare(*users_, *pictures, progress, row));
     row.whole = WholeError{.flip = *row.flip, .rmse = *row.rmse, .psnr_db = *row.psnr_db};
     return {};

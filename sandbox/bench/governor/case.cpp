@@ -41,12 +41,6 @@ struct ScratchFolder {
   }
 };
 
-class NoProgress final : public CostProgress {
- public:
-  void measuring(const std::string&, const std::string&, std::size_t, std::size_t) override {}
-  void finished(const LedgerRow&, bool) override {}
-};
-
 Result<Ledger> measure_ledger(Session& session, const Options& options, SessionCosts& costs) {
   if (!options.ledger.empty()) {
     auto found = find_own_ledger(session, options);
@@ -60,7 +54,7 @@ Result<Ledger> measure_ledger(Session& session, const Options& options, SessionC
   request.header.quick = true;
   request.header.seconds = 60.0 * kLedgerMinutes;
   for (const std::string_view knob : kTriedKnobs) request.knobs.emplace_back(knob);
-  NoProgress progress;
+  CostProgress progress;
   return measure_costs(request, costs, progress);
 }
 

@@ -3,6 +3,7 @@
 """Tests `render --budget`. Needs a Vulkan device. The budgets are so wide or so narrow that no machine decides otherwise."""
 import json
 
+from budget_ledger import make_ledger
 from gltf_scene import GltfScene
 from program_case import ProgramCase, main
 
@@ -15,13 +16,7 @@ class Budget(ProgramCase):
     def setUp(self):
         super().setUp()
         self.require_device()
-        self.expect(0, "cost", "builtin:plain", "--quick", "--size", "64x36", "--knobs", "views.scale", "--points", "2", "--out", "l")
-        ledger = self.read_json("l/ledger.json")
-        point = ledger["points"][0]
-        ledger["points"] = [point | {"settings": settings, "ms": {"median": ms, "p10": ms, "p90": ms},
-                                     "error": point["error"] | {"flip": {"mean": error, "p99": error}}}
-                            for settings, ms, error in SETTINGS]
-        self.write_ledger("l/ledger.json", ledger)
+        make_ledger(self, "l", SETTINGS)
 
     def write_ledger(self, name, ledger):
         (self.folder / name).write_text(json.dumps(ledger))

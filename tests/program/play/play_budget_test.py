@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: The gloam authors
 # SPDX-License-Identifier: MIT
 """Tests the panel's section of budgets in a window: locks and the wipe. Needs Vulkan and Xvfb."""
-import json
 import os
 import shutil
 from pathlib import Path
 
+from budget_ledger import make_ledger
 from program_case import main
 from window_case import WindowCase, read_png
 
@@ -26,13 +26,7 @@ class PlayBudget(WindowCase):
         super().setUp()
         self.assertIsNotNone(shutil.which("Xvfb"), "Xvfb is not installed (package xvfb)")
         self.require_device()
-        self.expect(0, "cost", "builtin:plain", "--quick", "--size", "64x36", "--knobs", "views.scale", "--points", "2", "--out", "l")
-        ledger = self.read_json("l/ledger.json")
-        point = ledger["points"][0]
-        ledger["points"] = [point | {"settings": settings, "ms": {"median": ms, "p10": ms, "p90": ms},
-                                     "error": point["error"] | {"flip": {"mean": error, "p99": error}}}
-                            for settings, ms, error in SETTINGS]
-        (self.folder / "l/ledger.json").write_text(json.dumps(ledger), encoding="utf-8")
+        make_ledger(self, "l", SETTINGS)
 
     def play(self, script, scene=SCENE, dt="0", height=HEIGHT):
         """With a budget that no setting keeps, so that the fastest one is used."""
