@@ -25,16 +25,9 @@ struct SmokeMaterials {
 
 SmokeMaterials add_smoke_materials(SceneBuilder& builder) {
   const auto material = [&](const char* name, vec3 color, float roughness) {
-    return builder.add_material(
-        {.name = name, .base_color = vec4(color, 1.0f), .metallic = 0.0f, .roughness = roughness});
+    return builder.add_plain(name, color, roughness);
   };
-  const auto glow = [&](const char* name, vec3 luminance) {
-    return builder.add_material({.name = name,
-                                 .base_color = vec4(0.02f, 0.02f, 0.02f, 1.0f),
-                                 .emissive = luminance,
-                                 .metallic = 0.0f,
-                                 .roughness = 1.0f});
-  };
+  const auto glow = [&](const char* name, vec3 luminance) { return builder.add_glow(name, luminance); };
   SmokeMaterials m{};
   m.stone = material("stone", vec3(0.20f, 0.19f, 0.18f), 0.9f);
   m.wall = material("wall", vec3(0.26f, 0.22f, 0.19f), 0.95f);

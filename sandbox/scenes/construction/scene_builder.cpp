@@ -19,6 +19,18 @@ std::uint32_t SceneBuilder::add_material(const Material& material) {
   return static_cast<std::uint32_t>(materials.size() - 1);
 }
 
+std::uint32_t SceneBuilder::add_plain(const std::string& name, vec3 color, float roughness, float metallic) {
+  return add_material({.name = name, .base_color = vec4(color, 1.0f), .metallic = metallic, .roughness = roughness});
+}
+
+std::uint32_t SceneBuilder::add_glow(const std::string& name, vec3 luminance) {
+  return add_material({.name = name,
+                       .base_color = vec4(0.02f, 0.02f, 0.02f, 1.0f),
+                       .emissive = luminance,
+                       .metallic = 0.0f,
+                       .roughness = 1.0f});
+}
+
 std::uint32_t SceneBuilder::add_mesh(const std::string& name, Primitive shape, std::uint32_t material) {
   auto& meshes = world_.resource<SceneAssets>().meshes;
   shape.material = material;

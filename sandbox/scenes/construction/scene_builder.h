@@ -28,6 +28,10 @@ class SceneBuilder {
   SceneBuilder(World& world, SceneInfo& info) : world_(world), info_(info) {}
 
   [[nodiscard]] std::uint32_t add_material(const Material& material);
+  /// A material of one colour (linear RGB).
+  [[nodiscard]] std::uint32_t add_plain(const std::string& name, vec3 color, float roughness, float metallic = 0.0f);
+  /// A nearly black material that shines with this luminance, cd/m².
+  [[nodiscard]] std::uint32_t add_glow(const std::string& name, vec3 luminance);
   [[nodiscard]] std::uint32_t add_mesh(const std::string& name, Primitive shape, std::uint32_t material);
 
   /// heading: radians about +Y.

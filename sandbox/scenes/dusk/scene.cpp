@@ -43,16 +43,9 @@ void add_setts(World& world, SceneBuilder& builder, DuskMaterials& m) {
 
 DuskMaterials add_dusk_materials(World& world, SceneBuilder& builder) {
   const auto material = [&](const char* name, vec3 color, float roughness) {
-    return builder.add_material(
-        {.name = name, .base_color = vec4(color, 1.0f), .metallic = 0.0f, .roughness = roughness});
+    return builder.add_plain(name, color, roughness);
   };
-  const auto glow = [&](const char* name, vec3 luminance) {
-    return builder.add_material({.name = name,
-                                 .base_color = vec4(0.02f, 0.02f, 0.02f, 1.0f),
-                                 .emissive = luminance,
-                                 .metallic = 0.0f,
-                                 .roughness = 1.0f});
-  };
+  const auto glow = [&](const char* name, vec3 luminance) { return builder.add_glow(name, luminance); };
   const auto translucent = [&](const char* name, float extinction_m) {
     Material made{.name = name, .base_color = vec4(1.0f), .metallic = 0.0f, .roughness = 1.0f};
     made.double_sided = true;

@@ -24,8 +24,7 @@ struct CloseUpMaterials {
 
 CloseUpMaterials add_close_up_materials(SceneBuilder& builder) {
   const auto material = [&](const std::string& name, vec3 color, float roughness) {
-    return builder.add_material(
-        {.name = name, .base_color = vec4(color, 1.0f), .metallic = 0.0f, .roughness = roughness});
+    return builder.add_plain(name, color, roughness);
   };
   CloseUpMaterials m{};
   m.floor = material("floor", vec3(0.40f, 0.38f, 0.35f), 0.8f);

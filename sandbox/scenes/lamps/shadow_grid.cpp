@@ -54,8 +54,7 @@ struct GridMaterials {
 
 GridMaterials add_grid_materials(SceneBuilder& builder) {
   const auto material = [&](const char* name, vec3 color, float roughness) {
-    return builder.add_material(
-        {.name = name, .base_color = vec4(color, 1.0f), .metallic = 0.0f, .roughness = roughness});
+    return builder.add_plain(name, color, roughness);
   };
   return {.ground = material("ground", vec3(0.34f, 0.32f, 0.30f), 0.8f),
           .stone = material("stone", vec3(0.55f, 0.51f, 0.45f), 0.85f),

@@ -20,8 +20,7 @@ struct ShadowMaterials {
 
 ShadowMaterials add_shadow_materials(SceneBuilder& builder) {
   const auto material = [&](const char* name, vec3 color, float metallic, float roughness) {
-    return builder.add_material(
-        {.name = name, .base_color = vec4(color, 1.0f), .metallic = metallic, .roughness = roughness});
+    return builder.add_plain(name, color, roughness, metallic);
   };
   ShadowMaterials m{};
   m.floor = material("floor", vec3(0.42f, 0.40f, 0.37f), 0.0f, 0.85f);

@@ -47,8 +47,7 @@ constexpr Pole kPoles[kMeadowLanterns] = {
 
 MeadowMaterials add_meadow_materials(SceneBuilder& builder) {
   const auto material = [&](const char* name, vec3 color, float roughness) {
-    return builder.add_material(
-        {.name = name, .base_color = vec4(color, 1.0f), .metallic = 0.0f, .roughness = roughness});
+    return builder.add_plain(name, color, roughness);
   };
   MeadowMaterials m{};
   m.soil = material("soil", vec3(0.085f, 0.105f, 0.038f), 0.95f);

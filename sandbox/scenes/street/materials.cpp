@@ -59,8 +59,7 @@ void add_lit_panes(World& world, SceneBuilder& builder, StreetMaterials& m) {
 StreetMaterials add_street_materials(World& world, SceneBuilder& builder) {
   // Roughness 1 means that a surface has no mirror reflection.
   const auto material = [&](const char* name, vec3 color, float roughness, float metallic = 0.0f) {
-    return builder.add_material(
-        {.name = name, .base_color = vec4(color, 1.0f), .metallic = metallic, .roughness = roughness});
+    return builder.add_plain(name, color, roughness, metallic);
   };
   StreetMaterials m{};
   m.asphalt = material("asphalt", vec3(0.075f, 0.077f, 0.082f), 0.55f);

@@ -14,14 +14,6 @@ constexpr vec3 kSodium(1.0f, 0.66f, 0.30f);
 constexpr vec3 kWarm(1.0f, 0.78f, 0.50f);
 constexpr vec3 kCool(0.62f, 0.78f, 1.0f);
 
-std::uint32_t add_glow(Street& street, const std::string& name, vec3 luminance) {
-  return street.builder.add_material({.name = name,
-                                      .base_color = vec4(0.02f, 0.02f, 0.02f, 1.0f),
-                                      .emissive = luminance,
-                                      .metallic = 0.0f,
-                                      .roughness = 1.0f});
-}
-
 /// Ten posts at the kerbs, each with an arm over the road and a hood above its bulb: spot lights, eight of which cast.
 void add_street_lamps(Street& street) {
   SceneBuilder& builder = street.builder;
@@ -33,7 +25,7 @@ void add_street_lamps(Street& street) {
   const std::uint32_t arm = builder.add_mesh("lamp arm", box_shape({0.8f, 0.05f, 0.05f}), iron);
   const std::uint32_t cap = builder.add_mesh("lamp hood", turned_shape(hood, 18), iron);
   const std::uint32_t bulb =
-      builder.add_mesh("bulb", sphere_shape(0.09f, 14), add_glow(street, "bulb", kSodium * 16.0f));
+      builder.add_mesh("bulb", sphere_shape(0.09f, 14), street.builder.add_glow("bulb", kSodium * 16.0f));
   struct Post {
     double side, z;
     bool casts;
@@ -66,7 +58,7 @@ void add_street_fire(Street& street, dvec3 at) {
   const vec2 tongue[] = {{0.0f, 0.0f}, {0.09f, 0.12f}, {0.06f, 0.3f}, {0.0f, 0.55f}};
   builder.add_instance("barrel", builder.add_mesh("barrel", turned_shape(barrel, 24), street.materials.iron), at);
   const auto add_flame = [&](const char* name, const Primitive& shape, vec3 luminance, dvec3 offset) {
-    const std::uint32_t mesh = builder.add_mesh(name, shape, add_glow(street, name, luminance));
+    const std::uint32_t mesh = builder.add_mesh(name, shape, street.builder.add_glow(name, luminance));
     const Entity entity = builder.add_instance(name, mesh, at + offset);
     street.world.get<MeshInstance>(entity).casts_shadows = false;
   };
@@ -95,9 +87,9 @@ struct WallLamp {
 void add_wall_lamps(Street& street) {
   const vec2 lantern[] = {{0.0f, -0.14f}, {0.05f, -0.14f}, {0.09f, 0.1f}, {0.0f, 0.16f}};
   const std::uint32_t warm =
-      street.builder.add_mesh("lantern", turned_shape(lantern, 10), add_glow(street, "lantern", kWarm * 6.0f));
+      street.builder.add_mesh("lantern", turned_shape(lantern, 10), street.builder.add_glow("lantern", kWarm * 6.0f));
   const std::uint32_t cool = street.builder.add_mesh("cool lantern", turned_shape(lantern, 10),
-                                                     add_glow(street, "cool lantern", kCool * 6.0f));
+                                                     street.builder.add_glow("cool lantern", kCool * 6.0f));
   constexpr double kPier = 0.5 * (kStreetKerbX + kStreetFacadeX);
   const WallLamp lamps[] = {
       {"pier south left", {-kPier, 2.7, kGateSouthZ}, {0, 0, 1}, kWarm, 7.0f, false},
@@ -125,8 +117,8 @@ void add_wall_lamps(Street& street) {
 
 /// Bulbs on two cords over the terrace.
 void add_street_garlands(Street& street) {
-  const std::uint32_t bulb =
-      street.builder.add_mesh("small bulb", sphere_shape(0.055f, 10), add_glow(street, "small bulb", kWarm * 9.0f));
+  const std::uint32_t bulb = street.builder.add_mesh("small bulb", sphere_shape(0.055f, 10),
+                                                     street.builder.add_glow("small bulb", kWarm * 9.0f));
   const std::uint32_t cord =
       street.builder.add_mesh("cord", box_shape({0.012f, 0.012f, 1.0f}), street.materials.rubber);
   const std::uint32_t pole = street.builder.add_mesh("pole", box_shape({0.05f, 2.7f, 0.05f}), street.materials.iron);
@@ -153,8 +145,8 @@ void add_street_garlands(Street& street) {
 
 /// Lamps below the canopy and in the passage, and a wash of light on the clock tower.
 void add_hidden_lamps(Street& street) {
-  const std::uint32_t disc =
-      street.builder.add_mesh("ceiling lamp", sphere_shape(0.08f, 12), add_glow(street, "ceiling lamp", kWarm * 7.0f));
+  const std::uint32_t disc = street.builder.add_mesh("ceiling lamp", sphere_shape(0.08f, 12),
+                                                     street.builder.add_glow("ceiling lamp", kWarm * 7.0f));
   const auto add_ceiling_lamp = [&](const std::string& name, dvec3 at, float candela) {
     street.builder.add_instance("ceiling lamp", disc, at);
     add_street_lamp(street, name, {.color = kWarm, .candela = candela, .range_m = 5.0f, .width_m = 0.16f}, at,
