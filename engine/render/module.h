@@ -201,6 +201,9 @@ class Module {
   virtual void take_result(World&, ViewId, std::string_view /*name*/, const FrameResult& /*result*/) const {}
   /// Reports counters that the GPU counted, from a result of the newest completed frame.
   virtual void result_counters(std::string_view /*name*/, const FrameResult&, CounterSink&) const {}
+  /// Whether the last frame of the view did only a part of the work that a change of knobs has made, because the view
+  /// is paced (RenderView::paced). Such frames say nothing about the time that the knobs take.
+  [[nodiscard]] virtual bool spreads_work(const World&, const RenderView&) const { return false; }
   /// Frees what the module keeps for this view in any world. Called by Renderer::release_view.
   virtual void release_view(ViewId) {}
   /// Called when a frame is given up (an error, an exception) that declared passes of the module: the GPU executes

@@ -57,7 +57,11 @@ std::optional<GovernorDecision> Renderer::add_frame_time(const FrameTime& time) 
   BudgetControl* control = parts_->budgets.find(time.effect);
   if (control == nullptr) return std::nullopt;
   FrameTime own = time;
-  own.judged = own.judged && parts_->last_frame.assets_pending == 0 && parts_->resources.pipelines.pending() == 0;
+  const LastFrame& last = parts_->last_frame;
+  // Work that is spread over frames adds less than this, so a frame that takes longer is too slow without it.
+  constexpr double kFarOver = 1.8;
+  const bool caught_up = !last.spreads_work || time.ms > kFarOver * control->budget_ms();
+  own.judged = own.judged && last.assets_pending == 0 && caught_up && parts_->resources.pipelines.pending() == 0;
   const GovernorDecision decision = control->add(own, parts_->knobs.drawn_version, knobs());
   if (control->take_settled()) parts_->make_pipelines_ahead(*control);
   return decision;

@@ -129,6 +129,9 @@ struct RenderView : ViewProjection {
   /// The view that this one is a companion of; its own id if it is none.
   ViewId main_view{0};
   bool has_companions = false;
+  /// A time budget chooses the view's knobs: modules spread work that a change of knobs makes over several frames, so
+  /// that no frame is much longer than the others (Module::spreads_work).
+  bool paced = false;
   /// The view's camera in the world's previous drawn frame. If there is none (has_previous), the current camera. There
   /// is none after a camera cut, and if the world's previous frame did not draw the view.
   ViewCamera previous;

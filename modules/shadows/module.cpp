@@ -102,6 +102,7 @@ class ShadowsModule final : public Module {
     world.resource<ShadowTexelGrid>().unit = 1.0 / metres_per_unit(world);
     prepare_shadow_view(world, view, shadow_knobs(knobs));
     world.view_resource<ShadowSettings>(view) = shadow_settings(shadow_knobs(knobs));
+    world.view_resource<ViewFaces>(view).knobs_version = knobs.version();
     // Cookies of lights added after the scene was loaded. The error of a bad file stays in Cookies::faults for the log.
     static_cast<void>(load_cookies(world));
   }
@@ -164,7 +165,13 @@ class ShadowsModule final : public Module {
     sink.count("shadows.faces_shrunk", view_faces.faces_shrunk);
     sink.count("shadows.faces_at_limit", view_faces.faces_at_limit);
     sink.count("shadows.faces_left_out", view_faces.faces_left_out);
+    sink.count("shadows.faces_waiting", view_faces.faces_waiting);
     sink.count("shadows.atlas_used", static_cast<double>(view_faces.atlas.used_texels()) / std::max(texels, 1.0));
+  }
+
+  [[nodiscard]] bool spreads_work(const World& world, const RenderView& view) const override {
+    const auto* view_faces = world.try_view_resource<ViewFaces>(view.id);
+    return view_faces != nullptr && view_faces->faces_waiting > 0;
   }
 
   void release_view(ViewId view) override { states_.release_view(view); }

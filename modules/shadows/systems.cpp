@@ -148,8 +148,10 @@ void prepare_shadow_view(World& world, ViewId view, const ShadowKnobs& knobs) {
   if (world.try_view_resource<ViewFaces>(view) == nullptr) world.set_view_resource(view, ViewFaces{});
   auto& view_faces = world.view_resource<ViewFaces>(view);
   const auto* render_view = world.try_view_resource<RenderView>(view);
-  // A view and its companions share the atlas of the view, captures share another one.
-  const bool together = render_view != nullptr && (render_view->is_companion() || render_view->has_companions);
+  // A view and its companions share the atlas of the view, captures share another one. A view under a time budget has
+  // its atlas as if it had companions: with some of its settings it has.
+  const bool paced = render_view != nullptr && render_view->paced && render_view->purpose == ViewPurpose::main;
+  const bool together = render_view != nullptr && (render_view->is_companion() || render_view->has_companions || paced);
   const bool captures = !together && render_view != nullptr && render_view->purpose == ViewPurpose::capture;
   view_faces.leads = together && !render_view->is_companion();
   view_faces.owner = captures ? owner_of_captures(knobs) : together ? render_view->main_view : view;

@@ -100,6 +100,10 @@ void commit_frame(Frame& frame, std::span<const ViewRequest> requests, RendererP
   parts.resources.commit(frame.world, redraw);
   scene.commit_frame();
   parts.last_frame.assets_pending = scene.pending();
+  parts.last_frame.spreads_work = std::ranges::any_of(frame.views, [&](const FrameView& own) {
+    return std::ranges::any_of(parts.modules.demanded(),
+                               [&](const Module* module) { return module->spreads_work(frame.world, *own.view); });
+  });
   if (!redraw) ++frame.world.resource<WorldSlot>().frames;
   parts.views.commit(requests);
   parts.last_frame.commit(std::move(frame.counters), parts.resources.results);

@@ -56,6 +56,7 @@ Status prepare_views(Frame& frame, RendererParts& parts) {
         std::make_unique<RenderView>(make_view(settings, number, parts.resources.cuts.declare(id, settings, number)));
     own.view->main_view = own.main.value_or(settings.id);
     own.view->has_companions = own.has_companions;
+    own.view->paced = !parts.budgets.empty();
     own.view->light_scale = light_scale_of(frame, own, parts.views);
     parts.resources.motion.begin_view(*own.view);
     frame.world.set_view_resource(settings.id, *own.view);

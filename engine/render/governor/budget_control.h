@@ -40,6 +40,7 @@ class BudgetControl {
   [[nodiscard]] bool set_neighbour(int step, KnobRegistry& knobs) const;
   [[nodiscard]] BudgetState state() const;
   [[nodiscard]] const std::string& effect() const { return effect_; }
+  [[nodiscard]] double budget_ms() const { return governor_.budget_ms(); }
   /// A knob that both budgets set; nullptr if there is none.
   [[nodiscard]] const std::string* shared_knob(const BudgetControl& other) const;
 

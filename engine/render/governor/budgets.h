@@ -24,6 +24,7 @@ class Budgets {
   /// nothing has changed.
   [[nodiscard]] Status change(std::string_view effect, double ms, std::vector<std::string> locked, KnobRegistry& knobs);
   void clear(std::string_view effect);
+  [[nodiscard]] bool empty() const { return controls_.empty(); }
   /// nullptr without a budget of this effect.
   [[nodiscard]] BudgetControl* find(std::string_view effect);
   [[nodiscard]] std::vector<BudgetState> states() const;

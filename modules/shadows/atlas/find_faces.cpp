@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/core/assert.h"
+#include "modules/shadows/atlas/paced_sizes.h"
 #include "modules/shadows/views/faces.h"
 #include "modules/shadows/views/resolution.h"
 
@@ -135,7 +136,10 @@ void request_directional(std::span<const ShadowLight> lights, const RenderView& 
   for (std::size_t i = 0; i < plans.directional.size(); ++i) {
     DirectionalPlan& plan = plans.directional[i];
     plan.first_request = plans.requests.size();
-    if (plan.size == 0 || !lights[i].caster.enabled) continue;
+    if (plan.size == 0 || !lights[i].caster.enabled) {
+      plan.count = 0;
+      continue;
+    }
     plan.axes = node_axes(lights[i].world_from_node);
     ++shadows.casting_lights;
     // Outer cascades show less of the picture.
@@ -146,20 +150,52 @@ void request_directional(std::span<const ShadowLight> lights, const RenderView& 
   }
 }
 
-/// Adds the requests of local lights, and stores their wanted sizes for the next frame.
-void request_local(std::span<const ShadowLight> lights, ViewFaces& shadows, Plans& plans) {
+/// Sets the sizes of local lights' faces, and stores them for the next frame.
+void size_local(std::span<const ShadowLight> lights, ViewFaces& shadows, Plans& plans) {
   shadows.wanted.clear();
   for (std::size_t i = 0; i < lights.size(); ++i) {
     LocalPlan& plan = plans.local[i];
     plan.size = size_at(plan, shadows.texels_per_pixel);
-    plan.first_request = plans.requests.size();
-    for (std::uint32_t f = 0; f < plan.shadow.face_count(); ++f)
-      plans.requests.push_back({{lights[i].entity, f}, plan.size, plan.importance});
     if (plan.size == 0) continue;
     ++shadows.casting_lights;
     if (lights[i].caster.resolution == 0) shadows.wanted.push_back({lights[i].entity, plan.size});
   }
   std::sort(shadows.wanted.begin(), shadows.wanted.end(), earlier);
+}
+
+/// Under a time budget, lets only some lights change the sizes of their faces in this frame.
+void pace(std::span<const ShadowLight> local, std::span<const ShadowLight> directional, const RenderView& view,
+          const ShadowSettings& settings, ViewFaces& shadows, Plans& plans) {
+  std::vector<PacedLight> lights;
+  const auto add = [&](const FaceKey& first, std::size_t faces, std::uint32_t wanted, float importance) {
+    lights.push_back(
+        {static_cast<std::uint32_t>(faces), shadows.atlas.square_of(first).size, faces > 0 ? wanted : 0, importance});
+  };
+  for (std::size_t i = 0; i < plans.local.size(); ++i) {
+    const LocalPlan& plan = plans.local[i];
+    add({local[i].entity, 0}, plan.shadow.face_count(), plan.size, plan.importance);
+  }
+  for (std::size_t i = 0; i < plans.directional.size(); ++i) {
+    const DirectionalPlan& plan = plans.directional[i];
+    const std::uint32_t slice = plans.spheres.empty() ? 0 : plans.spheres.front().slice;
+    add({directional[i].entity, slice, view_of_cascades(view, shadows)}, plan.count, plan.size,
+        brightness_of(directional[i].light));
+  }
+  const std::uint64_t room = std::uint64_t{settings.atlas_size} * settings.atlas_size;
+  shadows.faces_waiting = pace_sizes(lights, room, shadows.filling);
+  for (std::size_t i = 0; i < plans.local.size(); ++i) plans.local[i].size = lights[i].size;
+  for (std::size_t i = 0; i < plans.directional.size(); ++i)
+    plans.directional[i].size = lights[plans.local.size() + i].size;
+}
+
+void request_local(std::span<const ShadowLight> lights, Plans& plans) {
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    LocalPlan& plan = plans.local[i];
+    plan.first_request = plans.requests.size();
+    if (plan.size == 0) continue;
+    for (std::uint32_t f = 0; f < plan.shadow.face_count(); ++f)
+      plans.requests.push_back({{lights[i].entity, f}, plan.size, plan.importance});
+  }
 }
 
 /// Faces with fewer texels than shadows.texels_per_pixel asks for: surfaces may be nearer than the plan assumes, or the
@@ -178,7 +214,7 @@ void fill_local(std::span<const ShadowLight> lights, const FacePlaces& places, c
   std::size_t faces = 0;
   for (LocalPlan& plan : plans.local) {
     plan.first_face = faces;
-    plan.placed = plan.shadow.face_count() > 0 && places.squares[plan.first_request].size > 0;
+    plan.placed = plan.size > 0 && plan.shadow.face_count() > 0 && places.squares[plan.first_request].size > 0;
     if (plan.placed) faces += plan.shadow.face_count();
   }
   shadows.faces.resize(faces);
@@ -231,6 +267,12 @@ void fill_directional(std::span<const ShadowLight> lights, const FacePlaces& pla
 /// or a cut, they are chosen anew: otherwise a picture would depend on settings that are long gone.
 void forget_sizes(const RenderView& view, const ShadowSettings& settings, std::uint32_t sharers, ViewFaces& shadows) {
   const bool changed = shadows.settings != settings;
+  const bool was_off = shadows.sharers == 0 || view.frame > shadows.frame + 1;
+  const bool switched_on = was_off && shadows.knobs_version != shadows.drawn_knobs_version;
+  shadows.filling = view.paced && !view.camera_cut() && (switched_on || (shadows.filling && shadows.faces_waiting > 0));
+  shadows.frame = view.frame;
+  shadows.drawn_knobs_version = shadows.knobs_version;
+  shadows.faces_waiting = 0;
   if (changed) shadows.side = {};
   if (changed || shadows.sharers != sharers || view.camera_cut()) {
     shadows.texels_per_pixel = 0.0f;
@@ -255,11 +297,17 @@ void find_shadows(std::span<const ShadowLight> local, std::span<const ShadowLigh
   });
   plan_directional(directional, view, settings, casters, sharers, plans);
   shadows.texels_per_pixel = local_density(settings, plans, sharers, shadows.texels_per_pixel);
-  request_local(local, shadows, plans);
+  size_local(local, shadows, plans);
+  const bool own_places = shadows.shared == nullptr || shadows.leads;
+  if (view.paced && own_places && !view.camera_cut()) pace(local, directional, view, settings, shadows, plans);
+  request_local(local, plans);
   request_directional(directional, view, shadows, plans);
   // Companions need little more room: mostly for cascades.
   const bool spare = shadows.spare_for_overlays || shadows.leads;
-  const std::uint32_t side = shadows.side.next(plans.requests, spare, settings.atlas_size);
+  // An atlas of another side is another image, without the maps. So that no change of knobs needs one, it is the
+  // largest from the start.
+  const std::uint32_t side =
+      view.paced ? settings.atlas_size : shadows.side.next(plans.requests, spare, settings.atlas_size);
   if (shadows.leads) shadows.shared->set_side(side);
   const bool has_side = shadows.shared != nullptr && shadows.shared->side() > 0;
   const std::uint32_t shared_side = has_side ? shadows.shared->side() : settings.atlas_size;

@@ -251,6 +251,11 @@ AtlasSquare FreeSquares::take(std::uint32_t size) {
   return square_of(block, size);
 }
 
+AtlasSquare ShadowAtlas::square_of(const FaceKey& face) const {
+  const auto found = places_.find(face);
+  return found == places_.end() ? AtlasSquare{} : found->second;
+}
+
 FreeSquares ShadowAtlas::free_squares() const {
   if (size_ == 0) return {};
   std::vector<AtlasSquare> taken;

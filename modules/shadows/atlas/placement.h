@@ -85,6 +85,8 @@ class ShadowAtlas {
   /// different size than in the last call forgets all places. No two requests may have the same key.
   [[nodiscard]] FacePlaces place(std::uint32_t size, std::span<const FaceRequest> requests);
   [[nodiscard]] std::uint32_t size() const { return size_; }
+  /// The square of a face; size 0: it has none.
+  [[nodiscard]] AtlasSquare square_of(const FaceKey& face) const;
   /// Texels of all placed faces.
   [[nodiscard]] std::uint64_t used_texels() const { return used_texels_; }
   /// The free squares. Placed faces stay where they are.

@@ -35,18 +35,23 @@ struct ViewFaces {
   std::uint32_t faces_shrunk = 0;        ///< faces smaller than requested, because the atlas was full
   std::uint32_t faces_at_limit = 0;  ///< faces of local lights with fewer texels than their nearest surfaces ask for
   std::uint32_t faces_left_out = 0;  ///< faces without a place, even at the smallest size: their lights cast no shadow
+  std::uint32_t faces_waiting = 0;   ///< faces that will get their size in a later frame (pace_sizes)
+  bool filling = false;              ///< shadows were switched on: lights without squares wait for their turn
   std::uint32_t casting_lights = 0;  ///< lights that requested faces
   ShadowAtlas atlas;                 ///< places of the faces; kept from frame to frame
   AtlasSide side;                    ///< texels of the atlas' side; kept from frame to frame
   bool spare_for_overlays = false;   ///< the atlas keeps room for overlays
   /// Of the atlas: the view itself, the view that this one is a companion of, or a number that captures share.
   ViewId owner{0};
-  std::shared_ptr<SharedPlaces> shared;  ///< null: no other view uses the atlas
-  bool leads = false;                    ///< companions share the atlas; its size goes by the faces of this view
-  float texels_per_pixel = 0.0f;         ///< density of local lights' maps; kept from frame to frame; 0: no frame yet
-  std::vector<WantedSize> wanted;        ///< ordered by entity index; kept from frame to frame
-  ShadowSettings settings;               ///< of the last frame
-  std::uint32_t sharers = 0;             ///< views that shared the atlas in the last frame; 0: no frame yet
+  std::shared_ptr<SharedPlaces> shared;   ///< null: no other view uses the atlas
+  bool leads = false;                     ///< companions share the atlas; its size goes by the faces of this view
+  float texels_per_pixel = 0.0f;          ///< density of local lights' maps; kept from frame to frame; 0: no frame yet
+  std::vector<WantedSize> wanted;         ///< ordered by entity index; kept from frame to frame
+  ShadowSettings settings;                ///< of the last frame
+  std::uint64_t knobs_version = 0;        ///< KnobRegistry::version() of this frame
+  std::uint64_t drawn_knobs_version = 0;  ///< the same of the last frame with shadows
+  std::uint64_t frame = 0;                ///< RenderView::frame of the last frame with shadows
+  std::uint32_t sharers = 0;              ///< views that shared the atlas in the last frame; 0: no frame yet
 };
 
 }  // namespace gloam
