@@ -221,14 +221,15 @@ bool known_before_filter(ShadowPoint p, out float visibility, out float width) {
   bool wide =
       kNear != 0u && !p.orthographic && tangent > kNearTangent && kFullPenumbra == 0u && p.live && unsure && !unlit;
   // Off the face's axis, tangents to the receiver's direction are up to twice as large.
-  float reach = near_reach(p, 2.0 * tangent, wide);
-  bool near = wide && reach > kNearTangent;
-  unsure = unsure && (!wide || reach > 0.0);
+  NearBounds bounds = near_bounds(p, near_frame(p), 2.0 * tangent, wide);
+  bool near = bounds.reach > kNearTangent;
+  visibility = bounds.umbra ? 0.0 : visibility;
+  unsure = unsure && (!wide || bounds.reach > 0.0);
   if (near) {
     known = false;
-    width = -min(2.0 * tangent, reach);
+    width = -min(2.0 * tangent, bounds.reach);
   }
-  if (wide) region.width = min(region.width, 2.0 * reach * p.size / p.tan_half);
+  if (wide) region.width = min(region.width, 2.0 * bounds.reach * p.size / p.tan_half);
   if (!near && p.live && unsure && !unlit) do {
       Blockers blockers = region_blockers(p, region);
       width = penumbra_width(p, blockers.depth);

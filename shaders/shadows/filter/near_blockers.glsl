@@ -20,7 +20,7 @@ const float kNearJoin = 0.4;  // least ratio of depths, beyond the receiver's, o
 // Place of an edge between two samples, as a share: with it the mean area is right, wherever the edge lies on the
 // logarithmic scale.
 const float kNearEdge = 0.43;
-const float kNearFirst = 0.05;  // tangent of the first ring of near_reach()
+const float kNearFirst = 0.05;  // tangent of the first ring of near_bounds()
 // Tangent at the receiver's direction from which a blocker in the cone is near.
 const float kNearTangent = kNear == 2u ? 0.3 : 0.55;
 
@@ -89,9 +89,14 @@ float near_depth(ShadowPoint p, NearFrame f, inout vec3 v) {
   return inside ? depth / along : 0.0;
 }
 
-// The pyramid's nearest depth, along w, of 2×2 texels around direction v that reach at least `reach` from it, as a
-// tangent. Texels beyond the border of the face of v are left out.
-float nearest_around(ShadowPoint p, NearFrame f, vec3 v, float reach) {
+// 2×2 texels of the pyramid around direction v that reach at least `reach` from it, as a tangent. Texels beyond the
+// border of the face of v are left out.
+struct NearTexels {
+  vec2 corner;  // between the texels, in texels of the pyramid's level 0
+  float along;  // depth along w of a surface in direction v, over its depth in the face
+};
+
+NearTexels texels_around(ShadowPoint p, NearFrame f, vec3 v, float reach) {
   NearPlace place = near_place(p, f, v);
   vec3 local = place.local;
   // Off the axes, a face's tangents are wider than tangents to w.
@@ -99,27 +104,54 @@ float nearest_around(ShadowPoint p, NearFrame f, vec3 v, float reach) {
   int level = pyramid_level(texels, floor_log2(p.size) - GLOAM_SHADOW_PYRAMID_MIP - 1);
   MipSquare square = mip_square(place.origin * 0.25, p.size * 0.25, level, shadow_block.atlas_size * 0.25);
   vec2 corner = clamp(floor(place.at * 0.25 / square.texel - 0.5) + 1.0, vec2(1.0), vec2(square.size - 1.0));
-  return gather_nearest(square.corner + corner) * (p.face >= 0 ? local.z : 1.0);
+  return NearTexels(square.corner + corner, p.face >= 0 ? local.z : 1.0);
 }
 
-// Tangent beyond which no blocker lies in the cone between receiver and emitter; 0: there is none at all. Rings of
-// directions at tangents that double, each with the texels half-way to its neighbours. needed: as in near_visibility().
-float near_reach(ShadowPoint p, float widest, bool needed) {
-  const float kAround = 0.42;  // half of the way to a neighbour, as a share of the tangent
-  NearFrame f = near_frame(p);
-  float found = 0.0, least = f.depth + f.bias;
-  int n = 0, rings = clamp(ceil_log2(max(widest / kNearFirst, 1.0)) + 1, 1, 8), end = needed ? 1 + 8 * rings : 0;
+// What near_visibility() need not look at.
+struct NearBounds {
+  bool umbra;   // surfaces surely hide all of the emitter
+  float reach;  // tangent beyond which no blocker lies in the cone between receiver and emitter; 0: there is none at all
+};
+
+// Umbra: all depths in a disc around the receiver's direction are at least d, and the disc holds what the cone cuts out
+// at depth d. That cut grows with d, so the depth in the middle gives a disc that is large enough. A square of
+// directions is looked at, each with the texels half-way beyond its neighbours: next to an edge of the cube, those of
+// the other face come from there.
+// Reach: rings of directions at tangents that double, each with the texels half-way to its neighbours.
+// needed: as in near_visibility().
+NearBounds near_bounds(ShadowPoint p, NearFrame f, float widest, bool needed) {
+  const int kSide = 5, kRings = 1 + kSide * kSide;  // of the square; first turn of the rings
+  const float kBeyond = 1.3;                        // reach in the square, as a share of its step
+  const float kWidest = 1.0;                        // tangent of the disc's radius
+  const float kRounding = 1.02;
+  const float kAround = 0.42;  // half of the way to a neighbour on the rings, as a share of the tangent
+  NearBounds bounds = NearBounds(false, 0.0);
+  float least = f.depth + f.bias, step = 0.0, rise = 0.0;
+  float slope = length(f.plane - dot(f.plane, f.axes[2]) / dot(f.axes[2], f.axes[2]) * f.axes[2]);
+  int n = 0, rings = clamp(ceil_log2(max(widest / kNearFirst, 1.0)) + 1, 1, 8), end = needed ? kRings + 1 + 8 * rings : 0;
   while (n < end) {  // see near_visibility()
-    float tangent = n == 0 ? 0.0 : kNearFirst * power_of_two((n - 1) >> 3);
-    float angle = 0.78539816 * float(n & 7);
-    vec3 v = f.axes[2] + f.axes * vec3(cos(angle), sin(angle), 0.0) * tangent;
-    float reach = n == 0 ? kNearFirst * (1.0 - kAround) : kAround * tangent;
-    float depth = nearest_around(p, f, v, reach);
-    bool blocks = depth > max(least, f.depth + max(tangent - 1.5 * reach, 0.0) / f.k);
-    if (blocks) found = max(found, tangent + reach);
-    ++n;
+    bool square = n < kRings;
+    int i = square ? max(n - 1, 0) : n - kRings;
+    float tangent = i == 0 ? 0.0 : kNearFirst * power_of_two((i - 1) >> 3), angle = 0.78539816 * float(i & 7);
+    vec2 at = square ? (vec2(i % kSide, i / kSide) - float(kSide / 2)) * step : vec2(cos(angle), sin(angle)) * tangent;
+    float reach = square ? kBeyond * step : i == 0 ? kNearFirst * (1.0 - kAround) : kAround * tangent;
+    vec3 v = f.axes[2] + f.axes * vec3(at, 0.0);
+    NearTexels texels = texels_around(p, f, v, reach);
+    vec4 depths = textureGather(shadow_pyramid,
+                                texels.corner * shadow_texel_size() * vec2(4.0, 2.0) + vec2(0.0, square ? 0.5 : 0.0));
+    float farthest = farthest_of(depths) * max(texels.along - 1.5 * reach, 0.0);
+    float nearest = nearest_of(depths) * texels.along;
+    float radius = kRounding * f.k * max(farthest - f.depth, 0.0) + 2.0 / f.to_texel;
+    bool hidden = farthest > max(dot(f.plane, v) + rise + f.bias, f.depth) && (n > 0 || radius < kWidest);
+    step = n == 0 ? radius / float(kSide / 2) : step;
+    rise = 1.5 * kBeyond * step * slope;
+    bool blocks = !square && nearest > max(least, f.depth + max(tangent - 1.5 * reach, 0.0) / f.k);
+    bounds.reach = blocks ? max(bounds.reach, tangent + reach) : bounds.reach;
+    bounds.umbra = bounds.umbra || (hidden && n == kRings - 1);
+    n = !square || hidden ? n + 1 : kRings;
+    n = bounds.umbra ? end : n;
   }
-  return found;
+  return bounds;
 }
 
 // Bits of the emitter's rings between the radii a and b, in any order. The 32 rings have equal areas.
