@@ -237,7 +237,6 @@ Status read_budget(std::string_view text, Options& options) {
     return {};
   }
   const std::string effect(text.substr(0, equals));
-  if (options.command == Command::bench) return usage("bench takes --budget TIME only, without an effect");
   if (effect.empty()) return usage("--budget wants TIME or EFFECT=TIME, not '" + std::string(text) + "'");
   if (std::ranges::find(options.effect_budgets, effect, &EffectBudget::effect) != options.effect_budgets.end())
     return usage("--budget gives " + effect + " two times");

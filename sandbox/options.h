@@ -63,7 +63,7 @@ struct Options {
   std::string config;
   std::string cache_dir;                     ///< empty: compiled pipelines are not kept between runs
   std::optional<double> budget_ms;           ///< play, render, bench: time of a frame
-  std::vector<EffectBudget> effect_budgets;  ///< play, render
+  std::vector<EffectBudget> effect_budgets;  ///< play, render, bench
   std::string ledger;  ///< play, render, bench: file or folder of `cost`, for the budgets; empty: find_ledger()
   bool validate = false;
   std::optional<PixelPosition> pick;

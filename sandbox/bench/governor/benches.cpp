@@ -29,12 +29,16 @@ using WorstOf = std::function<double(const GovernedScene&, const GovernedRun&)>;
 
 Result<GovernedScene> measure_and_write(BenchContext& context, const std::string& scene) {
   const Options& options = context.options();
-  auto measured = options.budget_ms ? measure_governed_budget(context, scene, *options.budget_ms)
-                                    : measure_governed_scene(context, scene);
+  std::vector<EffectBudget> budgets = options.effect_budgets;
+  if (options.budget_ms) budgets.push_back({.effect = {}, .ms = *options.budget_ms});
+  if (budgets.size() > 1) return Error{ErrorKind::usage, "bench governor takes one --budget"};
+  auto measured = budgets.empty() ? measure_governed_scene(context, scene)
+                                  : measure_governed_budget(context, scene, budgets.front());
   if (!measured || options.out.empty()) return measured;
   const std::string path = options.out + "/" + scene_stem(scene) + ".csv";
   GLOAM_TRY(make_folder_of(path));
   GLOAM_TRY(write_file(path, trace_csv(*measured)));
+  GLOAM_TRY(write_file(options.out + "/" + scene_stem(scene) + ".settings.csv", settings_csv(*measured)));
   return measured;
 }
 

@@ -14,6 +14,7 @@
 #include "sandbox/bench/harness/camera_path.h"
 #include "sandbox/output/identity.h"
 #include "sandbox/session/drawing/enlarged.h"
+#include "sandbox/session/drawing/session_budget.h"
 #include "sandbox/session/drawing/session_costs.h"
 #include "sandbox/session/loading/kept_ledger.h"
 #include "sandbox/session/loading/ledger_header.h"
@@ -134,36 +135,38 @@ class GovernedSession {
   Result<double> median_ms(std::size_t frames) {
     std::vector<double> times;
     for (std::size_t i = 0; i < frames; ++i) {
-      const auto ms = draw(i, 0);
-      if (!ms) return ms.error();
-      if (i >= frames / 4) times.push_back(*ms);
+      const auto drawn = draw(i, 0);
+      if (!drawn) return drawn.error();
+      if (i >= frames / 4) times.push_back(drawn->wall_ms());
     }
     std::ranges::sort(times);
     return times[times.size() / 2];
   }
 
-  Result<GovernedRun> run(const std::vector<FrontPoint>& front, double budget_ms, const std::string& name) {
+  Result<GovernedRun> run(const GovernedScene& scene, double budget_ms, const std::string& name) {
     Renderer& renderer = *session_.renderer;
     GovernedRun run = {.budget_ms = budget_ms, .name = name};
-    GLOAM_TRY(renderer.set_budget({.ms = budget_ms, .front = front}));
+    GLOAM_TRY(renderer.set_budget({.effect = scene.effect, .ms = budget_ms, .front = scene.front}));
     for (double share = 0.0; share < 1.0;) {
-      const std::size_t point = renderer.budget()->point;
+      const std::size_t point = renderer.budget(scene.effect)->point;
       const auto place = static_cast<std::size_t>(share * kPathSteps);
       const auto drawn = draw(run.frames.size(), name == "path" ? place : 0);
       if (!drawn) return drawn.error();
       if (name == "load" && run.step_at == 0 && share >= kLoadAt) run.step_at = run.frames.size();
-      const double ms = run.step_at > 0 ? kLoad * *drawn : *drawn;
-      share += ms * 1e-3 / kRunSeconds;
-      run.frames.push_back({ms, point, front[point].error});
-      renderer.add_frame_time({.ms = ms});
+      const double load = run.step_at > 0 ? kLoad : 1.0;
+      const double wall_ms = load * drawn->wall_ms();
+      const double ms = scene.effect.empty() ? wall_ms : load * effect_ms(drawn->report, scene.effect);
+      share += wall_ms * 1e-3 / kRunSeconds;
+      run.frames.push_back({.ms = ms, .wall_ms = wall_ms, .point = point, .error = scene.front[point].error});
+      renderer.add_frame_time({.effect = scene.effect, .ms = ms});
     }
-    renderer.clear_budget();
+    renderer.clear_budget(scene.effect);
     return run;
   }
 
  private:
-  /// A frame's time on the wall. place: 1…kPathSteps on the path through the cameras; 0: at the first camera.
-  Result<double> draw(std::size_t frame, std::size_t place) {
+  /// place: 1…kPathSteps on the path through the cameras; 0: at the first camera.
+  Result<FrameSample> draw(std::size_t frame, std::size_t place) {
     session_.set_clock(options_.time_s + static_cast<double>(frame) * options_.dt_s, options_.dt_s);
     const double scale = view_scale(session_.renderer->knobs());
     ViewRequest request = {.settings = session_.view_settings(scaled_size(options_.width, scale),
@@ -173,9 +176,7 @@ class GovernedSession {
       request.settings.follow_camera = false;
       request.settings.world_from_camera = path_pose(keys_, place, kPathSteps);
     }
-    const auto sample = session_.render_frame(request);
-    if (!sample) return sample.error();
-    return sample->wall_ms();
+    return session_.render_frame(request);
   }
 
   Session& session_;
@@ -198,7 +199,7 @@ Status run_budgets(Session& session, const Options& options, std::span<const dou
     for (const char* const name : {"standing", "path", "load"}) {
       if (name == std::string_view("path") && !governed.has_path()) continue;
       if (name == std::string_view("load") && budget != budgets[budgets.size() / 2]) continue;
-      auto run = governed.run(scene.front, budget, name);
+      auto run = governed.run(scene, budget, name);
       if (!run) return run.error();
       scene.runs.push_back(std::move(run).value());
     }
@@ -229,8 +230,8 @@ struct OpenedScene {
   GovernedScene scene;
 };
 
-/// Opens the scene and measures its front.
-Status open_governed(BenchContext& context, const std::string& scene, OpenedScene& opened) {
+/// Opens the scene and measures its front. effect: of GovernedScene.
+Status open_governed(BenchContext& context, const std::string& scene, const std::string& effect, OpenedScene& opened) {
   auto session = context.open_builtin(scene);
   if (!session) return session.error();
   opened.session = std::move(session).value();
@@ -243,9 +244,16 @@ Status open_governed(BenchContext& context, const std::string& scene, OpenedScen
     opened.options.height = kQuickHeight;
   }
   opened.scene.scene = scene;
+  opened.scene.effect = effect;
   SessionCosts costs(*opened.session, opened.options);
   auto ledger = measure_ledger(*opened.session, opened.options, costs);
   if (!ledger) return ledger.error();
+  if (!effect.empty()) {
+    opened.scene.front = sorted_front(effect_points(*ledger, effect, opened.session->renderer->knobs()));
+    if (!opened.scene.front.empty()) return {};
+    return Error{ErrorKind::usage,
+                 "--budget: none of the knobs that bench governor tries changes the time of " + effect};
+  }
   std::vector<FrontPoint> points;
   for (const LedgerPoint& point : ledger->points)  // the exact setting takes many times as long as all others
     if (!point.is_exact) points.push_back(front_points({.points = {point}}).front());
@@ -257,7 +265,7 @@ Status open_governed(BenchContext& context, const std::string& scene, OpenedScen
 
 Result<GovernedScene> measure_governed_scene(BenchContext& context, const std::string& scene) {
   OpenedScene opened;
-  GLOAM_TRY(open_governed(context, scene, opened));
+  GLOAM_TRY(open_governed(context, scene, {}, opened));
   SessionCosts costs(*opened.session, opened.options);
   auto tried = try_combinations(*opened.session, opened.options, costs);
   if (!tried) return tried.error();
@@ -268,10 +276,11 @@ Result<GovernedScene> measure_governed_scene(BenchContext& context, const std::s
   return std::move(opened.scene);
 }
 
-Result<GovernedScene> measure_governed_budget(BenchContext& context, const std::string& scene, double ms) {
+Result<GovernedScene> measure_governed_budget(BenchContext& context, const std::string& scene,
+                                              const EffectBudget& budget) {
   OpenedScene opened;
-  GLOAM_TRY(open_governed(context, scene, opened));
-  GLOAM_TRY(run_budgets(*opened.session, opened.options, {&ms, 1}, opened.scene));
+  GLOAM_TRY(open_governed(context, scene, budget.effect, opened));
+  GLOAM_TRY(run_budgets(*opened.session, opened.options, {&budget.ms, 1}, opened.scene));
   return std::move(opened.scene);
 }
 

@@ -24,7 +24,8 @@ inline constexpr std::size_t kBudgets = 5;
 
 /// A frame that was drawn under a budget.
 struct GovernedFrame {
-  double ms = 0.0;  ///< on the wall, times GovernedRun::load after the step of load
+  double ms = 0.0;  ///< what the budget is for, on the wall; more after the step of load
+  double wall_ms = 0.0;
   std::size_t point = 0;
   double error = 0.0;  ///< of the point
 };
@@ -44,6 +45,7 @@ struct TriedSetting {
 
 struct GovernedScene {
   std::string scene;
+  std::string effect;             ///< module whose passes the budget is for; empty: whole frames
   std::vector<FrontPoint> front;  ///< as the renderer sorts it: the fastest first, each more right than all before it
   std::vector<TriedSetting> tried;
   std::vector<GovernedRun> runs;  ///< standing and, with two cameras, on the path through them; then the load
@@ -65,10 +67,14 @@ struct GovernedFigures {
 /// Measures ledger, combinations and runs: several minutes.
 [[nodiscard]] Result<GovernedScene> measure_governed_scene(BenchContext& context, const std::string& scene);
 
-/// The runs of a scene at one budget in milliseconds only, without combinations (--budget).
-[[nodiscard]] Result<GovernedScene> measure_governed_budget(BenchContext& context, const std::string& scene, double ms);
+/// The runs of a scene at one budget only, without combinations (--budget). An empty effect is the whole frame.
+[[nodiscard]] Result<GovernedScene> measure_governed_budget(BenchContext& context, const std::string& scene,
+                                                            const EffectBudget& budget);
 
 /// A line for each frame: run, budget, frame, ms, point, error.
 [[nodiscard]] std::string trace_csv(const GovernedScene& scene);
+
+/// A line for each point of the front, then for each combination that was tried: kind, ms, error.
+[[nodiscard]] std::string settings_csv(const GovernedScene& scene);
 
 }  // namespace gloam

@@ -34,16 +34,16 @@ GovernedFigures figures_of(const GovernedRun& run) {
   double elapsed_s = 0.0, after_step_s = 0.0, rest_s = 0.0, changes = 0.0;
   for (std::size_t i = 0; i < run.frames.size(); ++i) {
     const GovernedFrame& frame = run.frames[i];
-    elapsed_s += frame.ms * 1e-3;
+    elapsed_s += frame.wall_ms * 1e-3;
     if (run.step_at > 0 && i >= run.step_at) {
-      after_step_s += frame.ms * 1e-3;
+      after_step_s += frame.wall_ms * 1e-3;
       if (frame.point < run.frames[i - 1].point) figures.settled_s = after_step_s;
     }
     if (elapsed_s < 1.0) continue;
     ms.push_back(frame.ms / run.budget_ms);
     figures.longest = std::max(figures.longest, frame.ms / run.budget_ms);
     if (elapsed_s < 2.0) continue;
-    rest_s += frame.ms * 1e-3;
+    rest_s += frame.wall_ms * 1e-3;
     changes += frame.point != run.frames[i - 1].point ? 1.0 : 0.0;
   }
   figures.percentile_90 = percentile_90(std::move(ms));
@@ -67,6 +67,13 @@ std::string trace_csv(const GovernedScene& scene) {
     for (std::size_t i = 0; i < run.frames.size(); ++i)
       text += run.name + formatted(",%.6g,%zu,%.6g,%zu,%.6g\n", run.budget_ms, i, run.frames[i].ms, run.frames[i].point,
                                    run.frames[i].error);
+  return text;
+}
+
+std::string settings_csv(const GovernedScene& scene) {
+  std::string text = "kind,ms,error\n";
+  for (const FrontPoint& point : scene.front) text += formatted("front,%.6g,%.6g\n", point.ms, point.error);
+  for (const TriedSetting& tried : scene.tried) text += formatted("tried,%.6g,%.6g\n", tried.ms, tried.error);
   return text;
 }
 

@@ -34,14 +34,6 @@ std::vector<std::string> locked_by_user(const Options& options) {
   return names;
 }
 
-/// Time of a module's passes; above 0 even if it has none, because frames without a time tell a budget nothing.
-double effect_ms(const FrameReport& report, const std::string& effect) {
-  double ms = 1e-3;
-  for (const PassTime& pass : report.passes)
-    if (pass.module == effect) ms += pass.ms;
-  return ms;
-}
-
 /// governed: gets the knobs that the budget sets.
 Status set_effect_budget(Session& session, const Options& options, const LedgerFile& file, const EffectBudget& own,
                          std::vector<std::string>& governed) {
@@ -62,6 +54,13 @@ Status set_effect_budget(Session& session, const Options& options, const LedgerF
 }
 
 }  // namespace
+
+double effect_ms(const FrameReport& report, const std::string& effect) {
+  double ms = 1e-3;
+  for (const PassTime& pass : report.passes)
+    if (pass.module == effect) ms += pass.ms;
+  return ms;
+}
 
 Status set_budgets(Session& session, const Options& options, const LedgerFile& file, LogSink& log) {
   if (const std::string other = differences(file.ledger.header, session, options); !other.empty())

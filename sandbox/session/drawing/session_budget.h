@@ -21,6 +21,9 @@ namespace gloam {
 /// The same with find_ledger().
 [[nodiscard]] Status set_budgets(Session& session, const Options& options, LogSink& log);
 
+/// Milliseconds of a module's passes; above 0 even if it has none, because frames without a time tell a budget nothing.
+[[nodiscard]] double effect_ms(const FrameReport& report, const std::string& effect);
+
 /// Tells all budgets of the last frame. frame: for whole frames; effects have the time of their passes in `report`.
 /// Returns the decisions with a reason, and the effect of each.
 struct BudgetDecision {
