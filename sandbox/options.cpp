@@ -33,6 +33,7 @@ struct RawTexts {
   std::optional<std::string> scale;
   std::optional<std::string> time;
   std::optional<std::string> dt;
+  std::string changed_shaders;
   std::vector<std::string> budgets;
   std::optional<std::string> shard;
   std::optional<std::string> minutes;
@@ -67,7 +68,7 @@ void add_machine_options(CLI::App& app, Options& options, RawTexts& raw) {
          "--out", options.out,
          "Picture to write: .png, or .exr for linear light, or with --view for its values (default out/<scene>.png); "
          "render --frames N: frame_%04d.png writes all frames; cost: folder of the ledger; bench governor: folder for "
-         "the times of all frames; bake: folder for pictures of the captures")
+         "the times of all frames; selftest: folder of the report; bake: folder for pictures of the captures")
       ->type_name("FILE");
   app.add_option("--stats", options.stats, "Write times, memory and counters as JSON")->type_name("FILE");
   app.add_option("--trace", options.trace, "Write a Chrome trace of systems and passes")->type_name("FILE");
@@ -176,6 +177,18 @@ std::vector<CommandApp> add_commands(CLI::App& root, Options& options, RawTexts&
       "jobs.empty is one batch: 100,000 jobs that exist already, in one call. jobs.spawn creates, runs and destroys\n"
       "100,000 separate jobs on two workers. Every row carries a hash of its result, except rows that quote a figure\n"
       "from a paper. If a row fails, the rows before it are still written.");
+  CLI::App* selftest =
+      add(Command::selftest, "selftest", "Check that the mathematics holds on this device, and how far");
+  selftest->add_flag("--quick", options.quick, "Fewer checks and cases: up to a minute on two cores");
+  CLI::Option* list = selftest->add_flag("--list", options.list, "List the checks");
+  selftest->add_flag("--markdown", options.markdown, "With --list: print the table of docs/limits.md")->needs(list);
+  selftest->add_option("--only", options.only, "Run only these checks; * stands for any characters")
+      ->type_name("PATTERN");
+  selftest
+      ->add_option("--shaders", raw.changed_shaders,
+                   "Source tree whose shaders, where they differ from those of the program's own tree, are tested in "
+                   "place of the program's")
+      ->type_name("FOLDER");
   CLI::App* knobs = add(Command::knobs, "knobs", "List the knobs with their values, units and meanings");
   CLI::Option* json = knobs->add_flag("--json", options.json, "Print JSON");
   knobs->add_flag("--markdown", options.markdown, "Print the page docs/knobs.md: the defaults")->excludes(json);
@@ -401,7 +414,8 @@ Result<std::variant<Options, PrintAndLeave>> parse_options(std::span<const std::
     chosen = candidate.app;
     options.command = candidate.command;
   }
-  if (chosen == nullptr) return usage("a command is needed: play, render, inspect, bake, cost, bench, scenes or knobs");
+  if (chosen == nullptr)
+    return usage("a command is needed: play, render, inspect, bake, cost, bench, selftest, scenes or knobs");
   if (options.command == Command::play && chosen->count("--frames") == 0) options.frames = 0;
   if (options.command == Command::play && !(options.stats.empty() && options.trace.empty())) options.scale = 1.0;
   options.fixed_step = options.command != Command::play || chosen->count("--dt") > 0;
@@ -411,6 +425,7 @@ Result<std::variant<Options, PrintAndLeave>> parse_options(std::span<const std::
     options.scene_is_default = true;
   }
   if (!options.scene_list.empty()) options.shared_arguments = shared_arguments(*chosen);
+  if (options.command == Command::selftest) options.shaders = raw.changed_shaders;
   GLOAM_TRY(check_texts(options, raw));
   GLOAM_TRY(check_values(options));
   return Outcome(std::move(options));

@@ -13,7 +13,7 @@
 
 namespace gloam {
 
-enum class Command { play, render, inspect, bake, cost, bench, scenes, knobs };
+enum class Command { play, render, inspect, bake, cost, bench, selftest, scenes, knobs };
 
 struct PixelPosition {
   std::uint32_t x = 0;
@@ -46,7 +46,7 @@ struct Options {
   bool scale_given = false;     ///< by --scale
   double scale = 0.0;           ///< play: share of the window's size that is drawn, 0.25…1; 0: automatic
   std::string script;           ///< play: file of input events, for tests
-  std::string shaders;          ///< play: source tree whose shaders are watched
+  std::string shaders;          ///< play: source tree whose shaders are watched; selftest: whose shaders are tested
   std::uint32_t in_flight = 1;  ///< render: frames that may be unfinished at a time, 1…gpu::Device::kFramesInFlight
   double time_s = 0.0;
   double dt_s = 1.0 / 60.0;
@@ -70,11 +70,12 @@ struct Options {
   bool quiet = false;
 
   bool json = false;               ///< inspect, knobs
-  bool markdown = false;           ///< knobs
+  bool markdown = false;           ///< knobs, selftest
   std::uint32_t fit_proxies = 0;   ///< bake
   bool beside = false;             ///< bake: write the captures beside the scene file
   std::string knobs;               ///< cost: comma-separated
-  bool quick = false;              ///< cost
+  bool quick = false;              ///< cost, selftest
+  std::string only;                ///< selftest: pattern of the checks to run; empty: all
   std::string cameras;             ///< cost: comma-separated
   bool path = false;               ///< cost: the camera at times along the scene's animation
   std::string scene_list;          ///< cost: file with one scene a line; empty: the measured scene is `scene`
@@ -84,7 +85,7 @@ struct Options {
   std::vector<std::string> shared_arguments;
   std::vector<std::string> names;  ///< bench
   std::string json_file;           ///< bench
-  bool list = false;               ///< bench
+  bool list = false;               ///< bench, selftest
   bool strict = false;             ///< bench
 
   std::optional<double> minutes;        ///< cost: how long to measure; none: as --quick implies

@@ -210,6 +210,8 @@ struct ShortLedgerRequest {
 /// afterwards.
 [[nodiscard]] Result<Ledger> measure_short_ledger(const ShortLedgerRequest& request, CostSubject& subject);
 
+struct StabilityReport;
+
 struct KnobMeaning {
   std::string knob;
   std::string meaning;        ///< one sentence
@@ -223,6 +225,8 @@ struct ReportRequest {
   /// The bytes of a PNG or JPEG file for one of row_pictures(), small enough to be embedded; nullopt: there is none. A
   /// picture that it finds must also lie at pictures/NAME.png beside the report, which links to it. May be empty.
   std::function<std::optional<std::string>(const std::string& name)> picture;
+  /// The newest self-test of the ledger's device; null: none is known.
+  const StabilityReport* stability = nullptr;
 };
 
 /// A page that shows a ledger to somebody who must decide what to turn down: HTML with everything in it, below 3 MB.

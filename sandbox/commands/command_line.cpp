@@ -54,6 +54,8 @@ Status run_command(const CommandContext& context) {
       return run_cost(context);
     case Command::bench:
       return run_bench(context);
+    case Command::selftest:
+      return run_selftest_command(context);
     case Command::knobs:
       return run_knobs(context);
     case Command::scenes:

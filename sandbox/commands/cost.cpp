@@ -24,6 +24,7 @@
 #include "sandbox/session/baking/captures.h"
 #include "sandbox/session/drawing/session_costs.h"
 #include "sandbox/session/loading/kept_ledger.h"
+#include "sandbox/session/loading/kept_selftest.h"
 #include "sandbox/session/loading/ledger_header.h"
 #include "sandbox/session/loading/scene_files.h"
 #include "sandbox/session/loading/scene_loading.h"
@@ -196,6 +197,8 @@ Status write_report(const Ledger& ledger, const Options& options, const std::vec
                     const PictureFolder& pictures) {
   ReportRequest request = {.command = command_line(options), .meanings = knobs, .picture = {}};
   request.picture = [&](const std::string& name) { return pictures.small_file(name); };
+  const auto selftest = find_selftest(options, ledger.header.device, ledger.header.driver);
+  if (selftest) request.stability = &*selftest;
   return write_file(options.out + "/report.html", ledger_report(ledger, request));
 }
 

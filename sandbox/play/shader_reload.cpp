@@ -68,9 +68,9 @@ std::string stage_of(const std::string& file) {
   return std::filesystem::path(file).stem().extension().string().substr(1);
 }
 
-std::string file_of(const gpu::ShaderCode& shader) { return "shaders/" + std::string(shader.name) + ".glsl"; }
-
 }  // namespace
+
+std::string file_of(const gpu::ShaderCode& shader) { return "shaders/" + std::string(shader.name) + ".glsl"; }
 
 Result<std::vector<std::uint32_t>> compile_shader(const std::string& root, const std::string& file) {
   const TemporaryFile spirv;

@@ -20,6 +20,9 @@ namespace gloam {
 /// message, several lines. file: relative to the tree, "shaders/fog/blur.frag.glsl".
 [[nodiscard]] Result<std::vector<std::uint32_t>> compile_shader(const std::string& root, const std::string& file);
 
+/// The source of an embedded shader, relative to the tree.
+[[nodiscard]] std::string file_of(const gpu::ShaderCode& shader);
+
 /// Watches the shaders of a source tree and compiles those that change, in a thread.
 class ShaderReload {
  public:

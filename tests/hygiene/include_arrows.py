@@ -23,7 +23,7 @@ MODULE_LIST = module_graph.LIST  # knows every module; no module may include it
 # The headers of a module that others may include; a few modules have more.
 MODULE_PUBLIC = ("components.h", "module.h", "outputs.h")
 MODULE_PUBLIC_TOO = {"lights": ("light_names.h",), "particles": ("bake.h", "baked_light.h"), "reflections": ("bake.h", "captures.h"),
-                     "shadows": ("reference.h",)}
+                     "shadows": ("reference.h",), "accuracy": ("stability.h",)}
 
 # The rooms of modules that are also a target <module>_cpu, for hosts without a GPU, and the files directly in the folder that
 # belong to it. They include one another along the arrows of modules, the layers below, and nothing else.
@@ -71,7 +71,7 @@ ROOMS = {
     "sandbox/play": (("input", "display", "budget", "start"), ()),
     "sandbox/bench": (("harness", "ecs", "jobs", "frame", "governor", "lights", "shadows", "closeups", "reflections", "grass",
                        "particles", "dof", "papers"), ()),
-    "sandbox": (("output", "scenes", "session", "sweep", "window", "play", "bench", "commands"), ("options", "console", "log")),
+    "sandbox": (("output", "scenes", "session", "sweep", "window", "play", "bench", "selftest", "commands"), ("options", "console", "log")),
     "shaders/shadows": (("maps", "filter", "final_lists", "debug"), None),
     "shaders/grass": (("lod", "simulation", "drawing", "debug"), None),
     "shaders/particles": (("simulation", "sorting", "lighting", "drawing", "debug"), None),

@@ -24,7 +24,7 @@ class LastFrame {
   std::uint64_t submitted_ns = 0;  ///< FrameReport::submitted_ns
   std::size_t assets_pending = 0;  ///< FrameReport::assets_pending
 
-  bool spreads_work = false;       ///< a view spreads work over frames (Module::spreads_work)
+  bool spreads_work = false;  ///< a view spreads work over frames (Module::spreads_work)
 
   /// Notes the counters of a submitted frame, a view each. results: what the frame has requested.
   void commit(std::vector<ViewCounters> views, const FrameResults& results);

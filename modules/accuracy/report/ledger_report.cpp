@@ -24,7 +24,7 @@ std::string page_head(const ReportData& data) {
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta name=\"color-scheme\" content=\"light dark\">\n<link rel=\"icon\" href=\"data:,\">\n";
   html += "<title>Cost of " + escaped(data.ledger.header.scene) + "</title>\n<style>\n";
-  html += kPageStyle;
+  html.append(kPageStyle).append(kStabilityStyle);
   return html + "</style>\n</head>\n<body>\n";
 }
 
@@ -45,7 +45,9 @@ std::string page_header(const ReportData& data) {
       " <a href=\"#effects\">Each effect</a> <a href=\"#look\">Look</a> ";
   if (!data.ledger.skipped.empty()) html += "<a href=\"#called-for\">Called for</a> ";
   if (!data.ledger.cameras.empty()) html += "<a href=\"#cameras\">Cameras</a> ";
-  html += "<a href=\"#everything\">Everything</a> <a href=\"#conditions\">Conditions</a></nav>\n";
+  html +=
+      "<a href=\"#stable\">Stable</a> <a href=\"#everything\">Everything</a> <a "
+      "href=\"#conditions\">Conditions</a></nav>\n";
   return html + "</header>\n";
 }
 
@@ -74,6 +76,7 @@ std::string ledger_report(const Ledger& ledger, const ReportRequest& request) {
   html += look_section(data);
   html += called_section(data);
   html += cameras_section(data);
+  html += stable_section(data);
   html += table_section(data);
   html += conditions_section(data);
   html += "</main>\n";

@@ -128,6 +128,7 @@ bool ReportData::has_picture(std::string_view name) const {
 
 ReportData report_data(const Ledger& ledger, const ReportRequest& request) {
   ReportData data = {.ledger = ledger, .command = request.command, .meanings = request.meanings};
+  data.stability = request.stability;
   data.knobs = group_by_knob(ledger, request);
   data.savings = find_savings(data.knobs);
   data.users = users_point(ledger);

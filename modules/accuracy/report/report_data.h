@@ -41,7 +41,8 @@ struct ReportData {
   std::vector<KnobMeaning> meanings;
   std::vector<KnobResults> knobs;  ///< in the order of the ledger
   Savings savings;
-  const LedgerPoint* users = nullptr;  ///< the user's own settings; null: no combinations were measured
+  const StabilityReport* stability = nullptr;  ///< null: no self-test of the device is known
+  const LedgerPoint* users = nullptr;          ///< the user's own settings; null: no combinations were measured
   /// The fastest combination that is significantly faster than the user's and whose error is below 0.01, or no greater
   /// than that of the user's; or else below 0.03. Null: there is none.
   const LedgerPoint* recommended = nullptr;

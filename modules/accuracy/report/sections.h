@@ -26,6 +26,8 @@ namespace gloam {
 [[nodiscard]] std::string called_section(const ReportData& data);
 /// What the other sections show of several cameras, and a table of each. Empty for one camera.
 [[nodiscard]] std::string cameras_section(const ReportData& data);
+/// The self-test of the ledger's device: how many checks hold, and the curves.
+[[nodiscard]] std::string stable_section(const ReportData& data);
 /// All rows.
 [[nodiscard]] std::string table_section(const ReportData& data);
 /// Device, clock, size, noise and command line.
@@ -51,7 +53,8 @@ namespace gloam {
 /// "knob=value"; of a point, its settings_text()
 [[nodiscard]] std::string setting_of(const LedgerRow& row);
 
-extern const std::string_view kPageStyle;   ///< CSS
-extern const std::string_view kPageScript;  ///< JavaScript
+extern const std::string_view kPageStyle;       ///< CSS
+extern const std::string_view kStabilityStyle;  ///< CSS of the curves
+extern const std::string_view kPageScript;      ///< JavaScript
 
 }  // namespace gloam

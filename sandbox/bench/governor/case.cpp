@@ -111,7 +111,10 @@ Result<std::vector<TriedSetting>> try_combinations(Session& session, const Optio
   if (!ledger) return ledger.error();
   std::vector<TriedSetting> tried;
   for (const LedgerPoint& point : ledger->points)
-    if (!point.measured.is_default) tried.push_back({point.measured.ms.median_ms, point.measured.flip->mean});
+    if (!point.measured.is_default) {
+      const FrontPoint on_the_wall = front_points({.points = {point}}).front();
+      tried.push_back({on_the_wall.ms, on_the_wall.error});
+    }
   return tried;
 }
 

@@ -37,7 +37,7 @@ struct GovernedRun {
   std::vector<GovernedFrame> frames;
 };
 
-/// A combination that was tried; what it takes is by the ledger's clock.
+/// A combination that was tried; what it takes is on the wall, as the front's times are.
 struct TriedSetting {
   double ms = 0.0;
   double error = 0.0;  ///< mean FLIP against the whole frame

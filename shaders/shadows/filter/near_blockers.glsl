@@ -109,8 +109,9 @@ NearTexels texels_around(ShadowPoint p, NearFrame f, vec3 v, float reach) {
 
 // What near_visibility() need not look at.
 struct NearBounds {
-  bool umbra;   // surfaces surely hide all of the emitter
-  float reach;  // tangent beyond which no blocker lies in the cone between receiver and emitter; 0: there is none at all
+  bool umbra;  // surfaces surely hide all of the emitter
+  float
+      reach;  // tangent beyond which no blocker lies in the cone between receiver and emitter; 0: there is none at all
 };
 
 // Umbra: all depths in a disc around the receiver's direction are at least d, and the disc holds what the cone cuts out
@@ -128,7 +129,8 @@ NearBounds near_bounds(ShadowPoint p, NearFrame f, float widest, bool needed) {
   NearBounds bounds = NearBounds(false, 0.0);
   float least = f.depth + f.bias, step = 0.0, rise = 0.0;
   float slope = length(f.plane - dot(f.plane, f.axes[2]) / dot(f.axes[2], f.axes[2]) * f.axes[2]);
-  int n = 0, rings = clamp(ceil_log2(max(widest / kNearFirst, 1.0)) + 1, 1, 8), end = needed ? kRings + 1 + 8 * rings : 0;
+  int n = 0, rings = clamp(ceil_log2(max(widest / kNearFirst, 1.0)) + 1, 1, 8),
+      end = needed ? kRings + 1 + 8 * rings : 0;
   while (n < end) {  // see near_visibility()
     bool square = n < kRings;
     int i = square ? max(n - 1, 0) : n - kRings;

@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include <string>
+#include <vector>
+
+#include "sandbox/selftest/checks.h"
+
+namespace gloam {
+namespace {
+
+/// An effect against the reference that its module states.
+struct ReferenceCase {
+  const char* name;
+  const char* scene;
+  const char* knob;
+  const char* sentence;
+  const char* unit;
+  double bound;
+  const char* advice;
+  bool quick;
+  std::vector<KnobOverride> knobs = {};  ///< so that the error is that of one kernel
+};
+
+constexpr const char* kOfLight = "of the light";
+
+const std::vector<ReferenceCase>& references() {
+  static const std::vector<ReferenceCase> all = {
+      {"traced.lamp", "lamp", "shadows.filter", "shadows of a lamp with width against rays traced in double precision",
+       kOfLight, 0.005, "Try shadows.near=all and shadows.texels_per_pixel=6", true},
+      {"traced.spot", "spot", "shadows.filter", "shadows of a spot light against traced rays", kOfLight, 0.004,
+       "Try shadows.texels_per_pixel=6", false},
+      {"traced.sun", "sun", "shadows.filter", "shadows of a sun against traced rays", kOfLight, 0.002,
+       "Try shadows.texels_per_pixel=6", false},
+      {"traced.puddle", "puddle", "reflections.tiers", "reflections against traced rays", kOfLight, 0.004,
+       "Try reflections.mode=planar", false},
+      {"accumulated.lens", "lens", "dof.resolution", "depth of field against many pinhole pictures over the lens",
+       kOfLight, 0.06, "Try dof.resolution=full", false},
+      {"traced.smoke", "smoke", "particles.lighting", "lit particles against light at each pixel with traced shadows",
+       kOfLight, 0.005, "Try particles.lighting=pixel", false},
+      {"double.blades",
+       "lawn",
+       "grass.iterations",
+       "blades against 64 iterations in steps an eighth as long, in double precision",
+       "mm at the tip",
+       8.0,
+       "Try grass.iterations=8",
+       true,
+       {{"grass.masters", "1:1"}}},
+      {"double.tone_curve", "lamp", "lighting.tone_map_table", "the tone curve against the CPU's in double precision",
+       kLevels, 0.5, "Try lighting.tone_map_table=exact", true},
+  };
+  return all;
+}
+
+void add_reference(const ReferenceCase& own, std::vector<SelfTestCheck>& checks) {
+  StabilityCheck check = {.name = own.name,
+                          .kind = StabilityKind::kernel,
+                          .sentence = own.sentence,
+                          .unit = own.unit,
+                          .bound = own.bound,
+                          .advice = own.advice};
+  checks.push_back({std::move(check), own.quick, [own](SelfTestContext& context, StabilityCheck& result) -> Status {
+                      const auto error = context.reference_error(effect_scene(own.scene), own.knob, own.knobs,
+                                                                 context.quick() ? 64 : 256);
+                      if (!error) return error.error();
+                      add_case(result, *error, own.scene);
+                      return {};
+                    }});
+}
+
+Status count_missing_lights(SelfTestContext& context, StabilityCheck& check) {
+  for (const char* scene : {"builtin:lanterns", "builtin:many_lights"}) {
+    if (context.quick() && check.curve.empty() && !check.worst_case.empty()) break;
+    const auto drawn =
+        context.draw_builtin(scene, {.width = 320, .height = 180, .knobs = {{"lights.check", "on"}}, .frames = 2});
+    if (!drawn) return drawn.error();
+    const auto found = context.counters().find("lights.culling_errors");
+    if (found == context.counters().end()) return Error{ErrorKind::failed, "no light lists were checked"};
+    add_case(check, found->second, scene);
+  }
+  return {};
+}
+
+/// Draws the usual pictures, too, if no check before has drawn them.
+Status count_non_finite(SelfTestContext& context, StabilityCheck& check) {
+  for (const EffectScene& scene : effect_scenes()) {
+    if (context.quick() && !scene.quick) continue;
+    const auto drawn = context.draw(scene);
+    if (!drawn) return drawn.error();
+  }
+  const std::string all = std::to_string(context.pictures()) + " pictures";
+  add_case(check, static_cast<double>(context.non_finite()),
+           context.non_finite() > 0 ? context.first_non_finite() : all);
+  return {};
+}
+
+}  // namespace
+
+void add_count_checks(std::vector<SelfTestCheck>& checks) {
+  checks.push_back({{.name = "lists.missing_lights",
+                     .kind = StabilityKind::kernel,
+                     .sentence = "lights that reach a pixel but are missing in its tile's list, by brute force",
+                     .unit = "lights",
+                     .bound = 0.0,
+                     .advice = "Use lights.culling=brute, and report the device: its light lists are wrong"},
+                    true,
+                    &count_missing_lights});
+  for (const ReferenceCase& own : references()) add_reference(own, checks);
+}
+
+void add_finite_check(std::vector<SelfTestCheck>& checks) {
+  checks.push_back({{.name = "finite",
+                     .kind = StabilityKind::kernel,
+                     .sentence = "values of all pictures of this run that are not finite",
+                     .unit = "values",
+                     .bound = 0.0,
+                     .advice = "Report the device and the scene"},
+                    true,
+                    &count_non_finite});
+}
+
+}  // namespace gloam

@@ -1,0 +1,127 @@
+# SPDX-FileCopyrightText: The gloam authors
+# SPDX-License-Identifier: MIT
+"""Tests `selftest`: what it prints and writes, and that it fails when something is wrong."""
+import shutil
+
+from program_case import LONG, NO_DEVICE, ProgramCase, main
+
+NO_DRIVERS = {"VK_ICD_FILENAMES": "/nonexistent", "VK_DRIVER_FILES": "/nonexistent"}
+
+# Knobs that make a kernel worse than it should be, and the check that must catch it.
+WORSE = {
+    "grazing_light": ("shadows.bias=hardware", "shadows.bias_units=0", "shadows.receiver_plane=off"),
+    "traced.lamp": ("shadows.filter=hard",),
+    "double.blades": ("grass.iterations=1",),
+    "traced.puddle": ("reflections.tiers=cube",),
+    "accumulated.lens": ("dof.radius=3",),
+}
+
+
+# Mutations of kernels: what is wrong, the check that must catch it, the file below shaders, and what replaces what.
+MUTATIONS = (
+    ("a dropped light", "lists.missing_lights", "lights/lists/find_lights_approx.comp.glsl",
+     "? mask_tiles[parent + 1u + word] : 0u", "? mask_tiles[parent + 1u + word] & ~4u : 0u"),
+    ("a wrong tone curve", "double.tone_curve", "lighting/display/tone_curve.glsl",
+     "return clamp(shown, vec3(0.0), vec3(1.0));", "return clamp(shown * 1.03, vec3(0.0), vec3(1.0));"),
+    ("a wrong bias", "grazing_light", "shadows/filter/space.glsl", "p.depth + (toward ? bias + rounding : -bias)",
+     "0.9 * p.depth"),
+    ("not a number", "finite", "lighting/opaque/deferred.glsl", "out_light = vec4(min(light, vec3(65504.0)), 1.0);",
+     "out_light = vec4(light * uintBitsToFloat(0x7FC00000u), 1.0);"),
+    ("a narrow lens", "accumulated.lens", "depth_of_field/blur/radius.glsl", "return own_alpha * dof.radius",
+     "return 0.5 * own_alpha * dof.radius"),
+    ("missed hits", "traced.puddle", "reflections/passes/screen_space_march.glsl",
+     "return met ? vec2(before, reached) : kNoHit;", "return kNoHit;"),
+    ("too much scattered light", "traced.smoke", "particles/lighting/scattered_light.glsl",
+     "(1.0 + dot(p.normal, to_light))", "(3.0 + dot(p.normal, to_light))"),
+    ("blades that skip a step", "equal.blade_groups", "grass/simulation/simulate_blades.comp.glsl",
+     "turn < own_steps);", "turn + 1u < own_steps);"),
+    ("dropped proxies", "equal.proxy_tiles_naive", "reflections/passes/proxy_blending.comp.glsl",
+     "bits = proxy_masks[tile * tiles.words + word]", "bits = proxy_masks[tile * tiles.words + word] & ~1u"),
+    ("lit tiles that are called unlit", "equal.classified_filtered", "shadows/final_lists/classify_tile.glsl",
+     "if (clear) return kLit;", "if (clear) return kUnlit;"),
+    ("lost visibilities", "equal.deferred_monolithic", "shadows/final_lists/generate.glsl",
+     "return (steps < kMostSteps ? kSomeSeeLess : 0u) | (steps > 0u ? kSomeSeeAny : 0u);", "return kSomeSeeAny;"),
+)
+
+
+class Selftest(ProgramCase):
+    def test_checks_are_listed_once_each(self):
+        listed = [line.split(":")[0] for line in self.expect(0, "selftest", "--list").stdout.splitlines()]
+        self.assertEqual(len(listed), len(set(listed)))
+        quick = [line.split(":")[0] for line in self.expect(0, "selftest", "--list", "--quick").stdout.splitlines()]
+        self.assertLess(set(quick), set(listed))
+        for name in ("lists.missing_lights", "traced.lamp", "equal.twice", "moved.lawn", "scaled.fog", "exposure", "finite"):
+            self.assertIn(name, listed)
+
+    def test_the_page_of_limits_has_the_promised_ranges(self):
+        table = self.expect(0, "selftest", "--list", "--markdown").stdout
+        self.assertIn("| `moved.lamp` |", table)
+        self.assertIn(table, (self.source.resolve() / "docs/limits.md").read_text(),
+                      "put the output of gloam selftest --list --markdown into docs/limits.md")
+
+    def test_a_pattern_that_matches_nothing_is_a_usage_error(self):
+        self.assertIn("matches no check", self.expect(2, "selftest", "--only", "nothing").stderr)
+
+    def test_without_a_device_there_is_a_sentence(self):
+        self.expect(NO_DEVICE, "selftest", "--only", "exposure", env=NO_DRIVERS)
+
+    def test_the_quick_test_holds_and_writes_both_files(self):
+        self.require_device()
+        said = self.expect(0, "selftest", "--quick", "--out", "report").stdout
+        report = self.read_json("report/selftest.json")
+        self.assertEqual(report["failed"], 0)
+        self.assertTrue(report["quick"])
+        self.assertEqual(set(report["device"]), {"name", "driver", "type", "subgroup_size"})
+        self.assertGreater(len(report["checks"]), 15)
+        self.assertIn(f"{len(report['checks'])} of {len(report['checks'])} checks hold", said)
+        for check in report["checks"]:
+            self.assertIn(check["id"], said)
+            self.assertLessEqual(check["worst"], check["bound"])
+            if check["kind"] == "curve":
+                self.assertGreater(len(check["points"]), 1)
+        page = (self.folder / "report/selftest.html").read_text()
+        self.assertIn("Everything holds", page)
+        self.assertNotIn("http", page)
+
+    def test_what_is_worse_is_caught_by_name(self):
+        self.require_device()
+        for name, settings in WORSE.items():
+            with self.subTest(check=name):
+                options = [part for setting in settings for part in ("--set", setting)]
+                ran = self.expect(1, "selftest", "--only", name, "--out", "worse", *options)
+                self.assertIn("1 of 1 checks failed", ran.stderr)
+                self.assertIn("FAILED", ran.stdout)
+                check = self.read_json("worse/selftest.json")["checks"][0]
+                self.assertEqual((check["id"], check["holds"]), (name, False))
+                self.assertTrue(check["advice"])
+
+    def test_mutated_kernels_are_caught_by_name(self):
+        self.require_device()
+        for index, (what, name, file, old, new) in enumerate(MUTATIONS):
+            if not LONG and index >= 3:
+                continue
+            with self.subTest(mutation=what):
+                tree = self.folder / f"tree{index}"
+                shutil.copytree(self.source.resolve() / "shaders", tree / "shaders")
+                path = tree / "shaders" / file
+                text = path.read_text()
+                self.assertEqual(text.count(old), 1, f"{file} has changed: mutate it in another way")
+                path.write_text(text.replace(old, new))
+                ran = self.expect(1, "selftest", "--only", name, "--shaders", tree)
+                self.assertIn("FAILED", ran.stdout)
+                self.assertIn(name, ran.stdout)
+
+    def test_an_unchanged_tree_of_shaders_changes_nothing(self):
+        self.require_device()
+        self.expect(0, "selftest", "--only", "double.tone_curve", "--shaders", self.source.resolve())
+        self.assertIn("no folder shaders", self.expect(2, "selftest", "--shaders", "nowhere").stderr)
+
+    def test_the_whole_test_holds(self):
+        if not LONG:
+            self.skipTest("GLOAM_LONG_TESTS is not set")
+        self.require_device()
+        self.expect(0, "selftest")
+
+
+if __name__ == "__main__":
+    main()
