@@ -12,7 +12,9 @@
 #include "engine/render/reference/reference.h"
 #include "sandbox/output/file_io.h"
 #include "sandbox/output/pictures/image_io.h"
+#include "sandbox/session/baking/captures.h"
 #include "sandbox/session/drawing/session_costs.h"
+#include "sandbox/session/loading/scene_loading.h"
 #include "sandbox/session/session.h"
 
 namespace gloam {
@@ -108,6 +110,7 @@ Options SelfTestContext::options_for(const std::string& path, const TestView& vi
   options.dt_s = view.dt_s;
   options.threads = view.threads;
   options.out.clear();
+  if (!is_builtin(path)) options.cache_dir.clear();  // nobody asks for baked data of test scenes again
   for (const KnobOverride& knob : view.knobs) options.assignments.push_back(knob.name + "=" + knob.value);
   return options;
 }
@@ -115,6 +118,7 @@ Options SelfTestContext::options_for(const std::string& path, const TestView& vi
 Result<std::unique_ptr<Session>> SelfTestContext::open(const Options& options) {
   auto opened = open_session_on(device_, options, log_);
   if (!opened) return opened;
+  GLOAM_TRY(ensure_baked(**opened, options, log_));
   for (const ChangedShader& changed : shaders_)
     GLOAM_TRY((*opened)->renderer->replace_shader(*changed.shader, changed.words));
   return opened;

@@ -40,7 +40,7 @@ struct TestView {
   std::uint32_t width = 144;  ///< pixels
   std::uint32_t height = 96;
   std::vector<KnobOverride> knobs = {};
-  std::uint32_t frames = 1;  ///< the last one is the picture
+  std::uint32_t frames = 3;  ///< the last one is the picture
   double time_s = 0.0;       ///< of the first frame
   double dt_s = 1.0 / 60.0;
   double pause_s = 0.0;       ///< between the first frame and the second, beside dt_s

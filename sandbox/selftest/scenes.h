@@ -20,7 +20,7 @@ struct EffectScene {
   TestScene (*make)() = nullptr;
   std::vector<KnobOverride> knobs = {};
   double time_s = 0.0;       ///< of the first frame
-  std::uint32_t frames = 1;  ///< until the picture is judged
+  std::uint32_t frames = 3;  ///< until the picture is judged; in the first ones, lists have no room yet
   bool symmetric = true;     ///< turned or mirrored it looks the same; blades of grass grow where they grow
   bool moves = false;        ///< it changes with time
   bool quick = false;        ///< part of the quick self-test

@@ -36,9 +36,9 @@ MUTATIONS = (
     ("blades that skip a step", "equal.blade_groups", "grass/simulation/simulate_blades.comp.glsl",
      "turn < own_steps);", "turn + 1u < own_steps);"),
     ("dropped proxies", "equal.proxy_tiles_naive", "reflections/passes/proxy_blending.comp.glsl",
-     "bits = proxy_masks[tile * tiles.words + word]", "bits = proxy_masks[tile * tiles.words + word] & ~1u"),
+     "bits = proxy_masks[tile * tiles.words + word]", "bits = proxy_masks[tile * tiles.words + word] & 0x55555555u"),
     ("lit tiles that are called unlit", "equal.classified_filtered", "shadows/final_lists/classify_tile.glsl",
-     "if (clear) return kLit;", "if (clear) return kUnlit;"),
+     "return all_harmless(f, looks, most_turns) ? kLit : kUnknown;", "return all_harmless(f, looks, most_turns) ? kUnlit : kUnknown;"),
     ("lost visibilities", "equal.deferred_monolithic", "shadows/final_lists/generate.glsl",
      "return (steps < kMostSteps ? kSomeSeeLess : 0u) | (steps > 0u ? kSomeSeeAny : 0u);", "return kSomeSeeAny;"),
 )
