@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -51,6 +53,20 @@ std::string newest_in(const std::string& folder) {
   return files.empty() ? std::string() : std::ranges::max_element(files)->second;
 }
 
+std::size_t measured_knobs(const Ledger& ledger) {
+  std::set<std::string_view> names;
+  for (const LedgerRow& row : ledger.rows) names.insert(row.knob);
+  return names.size();
+}
+
+/// Whether the kept ledger tells more: it is of the same program, and has rows of more knobs.
+bool tells_more(const std::string& kept, const Ledger& ledger) {
+  if (!exists(kept)) return false;
+  const auto before = read_ledger(kept);
+  return before && before->ledger.header.build == ledger.header.build &&
+         measured_knobs(before->ledger) > measured_knobs(ledger);
+}
+
 }  // namespace
 
 std::string ledger_beside(const std::string& scene) {
@@ -61,6 +77,7 @@ std::string ledger_beside(const std::string& scene) {
 Status keep_ledger(const Ledger& ledger, const Options& options) {
   if (options.cache_dir.empty() || ledger.points.empty()) return {};
   const std::string path = device_folder(options, ledger.header.device) + "/" + ledger.header.scene_hash + ".json";
+  if (tells_more(path, ledger)) return {};
   GLOAM_TRY(make_folder_of(path));
   return write_file(path, ledger_json(ledger));
 }

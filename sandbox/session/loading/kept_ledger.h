@@ -16,7 +16,8 @@ namespace gloam {
 /// scene.
 [[nodiscard]] std::string ledger_beside(const std::string& scene);
 
-/// Keeps a ledger with combinations in the cache, for its scene and device; does nothing without a cache.
+/// Keeps a ledger with combinations in the cache, for its scene and device; does nothing without a cache, or if the one
+/// there is of the same program and has rows of more knobs (`--knobs` measures a few).
 [[nodiscard]] Status keep_ledger(const Ledger& ledger, const Options& options);
 
 struct LedgerFile {

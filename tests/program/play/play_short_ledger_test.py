@@ -29,7 +29,11 @@ class PlayShortLedger(ProgramCase):
         self.assertNotIn("views.range", {knob for point in points for knob in point["settings"]}, "it is a look")
         written = ledger.stat().st_mtime_ns
         narrow, _ = self.play("--budget", "0.001ms", "--cache-dir", "cache")
-        self.assertEqual((narrow["budget"]["point"], narrow["knobs"]["views.scale"]), (0, "0.35"))
+        fastest = min(points, key=lambda point: point["ms"]["median"])  # which one that is, the clock says
+        self.assertEqual(narrow["budget"]["point"], 0)
+        for knob, value in fastest["settings"].items():
+            if knob != "shadows.filter":
+                self.assertEqual(narrow["knobs"][knob], value)
         self.assertEqual(ledger.stat().st_mtime_ns, written, "the second start finds it")
 
     def test_budgets_of_effects_need_a_whole_ledger(self):

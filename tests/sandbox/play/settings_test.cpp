@@ -12,7 +12,7 @@ TEST(PlaySettingsTest, are_read_as_they_were_written) {
   const auto read = read_settings(settings_text(settings));
   ASSERT_TRUE(read.ok());
   EXPECT_EQ(*read, settings);
-  EXPECT_EQ(*read_settings(settings_text({})), PlaySettings());
+  EXPECT_EQ(*read_settings(settings_text(PlaySettings())), PlaySettings());
 }
 
 TEST(PlaySettingsTest, wrong_values_keep_their_defaults) {

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "sandbox/session/loading/kept_ledger.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sandbox/output/file_io.h"
+#include "tests/support/temporary_folder.h"
+
+namespace gloam {
+namespace {
+
+Ledger ledger_of(const std::vector<std::string>& knobs, const std::string& build) {
+  Ledger ledger = {.header = {.scene = "builtin:lanterns", .scene_hash = "abc", .device = "llvmpipe", .build = build}};
+  for (const std::string& knob : knobs)
+    for (const char* value : {"low", "high"}) ledger.rows.push_back({.knob = knob, .value = value});
+  ledger.points.push_back({.settings = {{knobs.front(), "low"}}});
+  return ledger;
+}
+
+/// Number of knobs in the only file of the cache.
+std::size_t kept_rows(const std::string& cache) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(cache))
+    if (entry.path().extension() == ".json")
+      return parse_ledger_json(*read_text_file(entry.path().string(), ErrorKind::input))->rows.size();
+  return 0;
+}
+
+TEST(KeptLedger, one_of_few_knobs_does_not_replace_a_fuller_one_of_the_same_program) {
+  const test::TestFolder folder;
+  const Options options = {.cache_dir = folder.path()};
+  ASSERT_TRUE(keep_ledger(ledger_of({"a.x", "a.y", "b.z"}, "1"), options).ok());
+  EXPECT_EQ(kept_rows(options.cache_dir), 6u);
+  ASSERT_TRUE(keep_ledger(ledger_of({"a.x"}, "1"), options).ok());
+  EXPECT_EQ(kept_rows(options.cache_dir), 6u);
+  ASSERT_TRUE(keep_ledger(ledger_of({"a.x", "a.y", "b.w"}, "1"), options).ok());
+  EXPECT_EQ(kept_rows(options.cache_dir), 6u) << "as many: the newer one";
+  ASSERT_TRUE(keep_ledger(ledger_of({"a.x"}, "2"), options).ok());
+  EXPECT_EQ(kept_rows(options.cache_dir), 2u) << "another program may have other times";
+}
+
+}  // namespace
+}  // namespace gloam
