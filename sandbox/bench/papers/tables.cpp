@@ -90,7 +90,7 @@ constexpr PaperRow kReflections[] = {
     {"proxies", "reflections.frame.proxies_ms", 1.5, "ms at most on PS4, 1080p"},
     {"post_processing", "reflections.frame.post_processing_ms", 2.0, "ms on PS4, 1080p"},
     {"chain", "reflections.frame.chain_ms", 5.0, "ms (the budget)"},
-    {"tiles_over_all_proxies", "reflections.tiled_over_naive", 1.5 / 8.0, "ratio at most (8 ms and more without)"},
+    {"all_proxies_over_tiles", "reflections.tiled_over_naive", 8.0 / 1.5, "ratio at least (8 ms and more, and 1.5 ms)"},
     {"chain_over_mirrored_scene", "reflections.chain_over_mirrored_scene", 0.5, "ratio (5 and 10 ms)"},
 };
 
