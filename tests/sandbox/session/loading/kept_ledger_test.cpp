@@ -19,6 +19,8 @@ Ledger ledger_of(const std::vector<std::string>& knobs, const std::string& build
   for (const std::string& knob : knobs)
     for (const char* value : {"low", "high"}) ledger.rows.push_back({.knob = knob, .value = value});
   ledger.points.push_back({.settings = {{knobs.front(), "low"}}});
+  ledger.points.back().measured.flip = ErrorPair();
+  ledger.points.back().measured.whole = WholeError();
   return ledger;
 }
 
