@@ -178,53 +178,44 @@ ConditionCurve grazing_light() {
 
 constexpr double kDays = 86400.0;
 
-/// What moves looks alike on average at all times.
-ConditionCurve running_time(const char* name, const char* scene_name, const char* sentence) {
-  return {.check = curve_check(name, sentence, "of the light", 0.1, "Let the scene's clock begin anew",
-                               "time since the start, s", {1.0, 30.0 * kDays}),
+/// Mean light of what moves, which looks alike on average however it is drawn. change: of the view, by the value.
+ConditionCurve moving(StabilityCheck check, const char* scene_name, bool quick, std::vector<double> values,
+                      void (*change)(TestView& view, double value)) {
+  return {.check = std::move(check),
           .axis_unit = "s",
-          .quick = false,
-          .values = {10.0, 1e3, 1e5, 30.0 * kDays, 1e9},
+          .quick = quick,
+          .values = std::move(values),
           .usual = usual_of(scene_name),
-          .error_at = [scene_name](SelfTestContext& context, const TestPicture& usual, double value) {
+          .error_at = [=](SelfTestContext& context, const TestPicture& usual, double value) {
             const EffectScene& scene = effect_scene(scene_name);
             TestView view = view_of(scene);
-            view.time_s = value;
+            change(view, value);
             return relative_light(context.draw(scene.make(), {}, view), usual);
           }};
+}
+
+ConditionCurve running_time(const char* name, const char* scene, const char* sentence) {
+  return moving(curve_check(name, sentence, "of the light", 0.1, "Let the scene's clock begin anew",
+                            "time since the start, s", {1.0, 30.0 * kDays}),
+                scene, false, {10.0, 1e3, 1e5, 30.0 * kDays, 1e9},
+                [](TestView& view, double value) { view.time_s = value; });
 }
 
 /// Blades stand where they stood, however long nothing was drawn.
-ConditionCurve pause(const char* name, const char* scene_name, const char* sentence) {
-  return {.check = curve_check(name, sentence, "of the light", 0.1, "Reset the grass after a long pause",
-                               "pause after the first frame, s", {1e-3, 30.0 * kDays}),
-          .axis_unit = "s",
-          .quick = true,
-          .values = {1e-3, 0.1, 1.0, 10.0, 1e3, 30.0 * kDays, 1e9},
-          .usual = usual_of(scene_name),
-          .error_at = [scene_name](SelfTestContext& context, const TestPicture& usual, double value) {
-            const EffectScene& scene = effect_scene(scene_name);
-            TestView view = view_of(scene);
-            view.pause_s = value;
-            return relative_light(context.draw(scene.make(), {}, view), usual);
-          }};
+ConditionCurve pause(const char* name, const char* scene, const char* sentence) {
+  return moving(curve_check(name, sentence, "of the light", 0.1, "Reset the grass after a long pause",
+                            "pause after the first frame, s", {1e-3, 30.0 * kDays}),
+                scene, true, {1e-3, 0.1, 1.0, 10.0, 1e3, 30.0 * kDays, 1e9},
+                [](TestView& view, double value) { view.pause_s = value; });
 }
 
-/// The same second in steps of another length.
-ConditionCurve frame_time(const char* name, const char* scene_name, const char* sentence) {
-  return {.check = curve_check(name, sentence, "of the light", 0.1, "Give the renderer shorter time steps",
-                               "time step, s", {1e-3, 1.0}),
-          .axis_unit = "s",
-          .quick = false,
-          .values = {1e-4, 1e-3, 0.01, 0.1, 1.0, 10.0},
-          .usual = usual_of(scene_name),
-          .error_at = [scene_name](SelfTestContext& context, const TestPicture& usual, double value) {
-            const EffectScene& scene = effect_scene(scene_name);
-            TestView view = view_of(scene);
-            view.dt_s = value;
-            view.frames = 30;
-            return relative_light(context.draw(scene.make(), {}, view), usual);
-          }};
+ConditionCurve frame_time(const char* name, const char* scene, const char* sentence) {
+  return moving(curve_check(name, sentence, "of the light", 0.1, "Give the renderer shorter time steps", "time step, s",
+                            {1e-3, 1.0}),
+                scene, false, {1e-4, 1e-3, 0.01, 0.1, 1.0, 10.0}, [](TestView& view, double value) {
+                  view.dt_s = value;
+                  view.frames = 30;
+                });
 }
 
 void add(ConditionCurve curve, std::vector<SelfTestCheck>& checks) {

@@ -109,9 +109,8 @@ NearTexels texels_around(ShadowPoint p, NearFrame f, vec3 v, float reach) {
 
 // What near_visibility() need not look at.
 struct NearBounds {
-  bool umbra;  // surfaces surely hide all of the emitter
-  float
-      reach;  // tangent beyond which no blocker lies in the cone between receiver and emitter; 0: there is none at all
+  bool umbra;   // surfaces surely hide all of the emitter
+  float reach;  // tangent beyond which no blocker lies in the cone to the emitter; 0: there is none at all
 };
 
 // Umbra: all depths in a disc around the receiver's direction are at least d, and the disc holds what the cone cuts out
