@@ -20,7 +20,7 @@ namespace {
 class WindowTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    ASSERT_EQ(glfwInit(), GLFW_TRUE) << "there is no display: run under xvfb-run";
+    ASSERT_EQ(glfwInit(), GLFW_TRUE) << "there is no display: run under Xvfb";
     if (glfwVulkanSupported() != GLFW_TRUE) GTEST_SKIP() << "there is no usable Vulkan device on this machine";
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
     window_ = glfwCreateWindow(200, 100, "test", nullptr, nullptr);

@@ -1,17 +1,19 @@
 # SPDX-FileCopyrightText: The gloam authors
 # SPDX-License-Identifier: MIT
-"""Tests `play --budget` of a scene that has no ledger: a short one is measured, used and kept. Needs Vulkan and xvfb-run."""
+"""Tests `play --budget` of a scene that has no ledger: a short one is measured, used and kept. Needs Vulkan and Xvfb."""
 import shutil
+import sys
 
+import virtual_display
 from program_case import ProgramCase, main
 
-PREFIX = ("xvfb-run", "-a", "-s", "-screen 0 800x600x24")
+PREFIX = (sys.executable, "-B", virtual_display.__file__, "800x600")
 
 
 class PlayShortLedger(ProgramCase):
     def setUp(self):
         super().setUp()
-        self.assertIsNotNone(shutil.which("xvfb-run"), "xvfb-run is not installed (package xvfb)")
+        self.assertIsNotNone(shutil.which("Xvfb"), "Xvfb is not installed (package xvfb)")
         self.require_device()
 
     def play(self, *arguments):

@@ -1,20 +1,22 @@
 # SPDX-FileCopyrightText: The gloam authors
 # SPDX-License-Identifier: MIT
 """Tests `play` on a virtual display: it draws, follows a change of size, and closes; its picture is that of `render`. Needs
-Vulkan and xvfb-run."""
+Vulkan and Xvfb."""
 import math
 import shutil
+import sys
 
+import virtual_display
 from program_case import main
 from window_case import Picture, WindowCase, read_png
 
-PREFIX = ("xvfb-run", "-a", "-s", "-screen 0 800x600x24")
+PREFIX = (sys.executable, "-B", virtual_display.__file__, "800x600")
 
 
 class Play(WindowCase):
     def setUp(self):
         super().setUp()
-        self.assertIsNotNone(shutil.which("xvfb-run"), "xvfb-run is not installed (package xvfb)")
+        self.assertIsNotNone(shutil.which("Xvfb"), "Xvfb is not installed (package xvfb)")
         self.require_device()
 
     def test_it_draws_some_frames_and_ends(self):

@@ -10,6 +10,7 @@ import time
 import zlib
 
 from program_case import CACHE, ProgramCase
+from virtual_display import VirtualDisplay
 
 Z_PIXMAP = 2
 CLIENT_MESSAGE = 33
@@ -189,19 +190,15 @@ class Running:
 class WindowCase(ProgramCase):
     def start(self, *arguments, script="", size=(800, 600), env=None):
         """Starts `gloam play` on a display of its own. script: the text of an input script."""
-        server = subprocess.Popen(["Xvfb", "-displayfd", "1", "-screen", "0", f"{size[0]}x{size[1]}x24", "-nolisten", "tcp"],
-                                  stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
-        self.addCleanup(server.wait)
-        self.addCleanup(server.terminate)
-        self.addCleanup(server.stdout.close)
-        name = ":" + server.stdout.readline().strip()
+        virtual = VirtualDisplay(size)
+        self.addCleanup(virtual.close)
         if script:
             (self.folder / "script.txt").write_text(script, encoding="utf-8")
             arguments = (*arguments, "--script", "script.txt")
-        environment = dict(os.environ, DISPLAY=name, WAYLAND_DISPLAY="", XDG_CACHE_HOME=CACHE.name,
+        environment = dict(os.environ, DISPLAY=virtual.name, WAYLAND_DISPLAY="", XDG_CACHE_HOME=CACHE.name,
                            XDG_CONFIG_HOME=str(self.folder / "config"), **(env or {}))
         environment.pop("GLOAM_LOG", None)
         program = subprocess.Popen([self.program, "play", *map(str, arguments)], cwd=self.folder, env=environment,
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self.addCleanup(lambda: program.poll() is None and program.kill())
-        return Running(self, program, self.folder, Display(name))
+        return Running(self, program, self.folder, Display(virtual.name))
