@@ -33,6 +33,7 @@ struct RawTexts {
   std::optional<std::string> scale;
   std::optional<std::string> time;
   std::optional<std::string> dt;
+  std::optional<std::string> seed;
   std::string changed_shaders;
   std::vector<std::string> budgets;
   std::optional<std::string> shard;
@@ -48,7 +49,7 @@ void add_frame_options(CLI::App& app, Options& options, RawTexts& raw) {
       ->type_name("N");
   app.add_option("--time", raw.time, "Simulated time of the first frame (default 0)")->type_name("SECONDS");
   app.add_option("--dt", raw.dt, "Simulated time from frame to frame (default 1/60)")->type_name("SECONDS");
-  app.add_option("--seed", options.seed,
+  app.add_option("--seed", raw.seed,
                  "Seed of random effects (default 1); this version has none, and pictures do not depend on it")
       ->type_name("N");
   app.add_option("--set", options.assignments, "Set a knob; may be given several times")
@@ -228,6 +229,14 @@ Status read_minutes(std::string_view text, std::optional<double>& minutes) {
   return {};
 }
 
+/// CLI11 would wrap numbers below 0 and clamp those that are too large.
+Status read_seed(std::string_view text, std::uint64_t& seed) {
+  const char* const end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, seed);
+  if (read.ec == std::errc() && read.ptr == end) return {};
+  return usage("--seed wants a whole number in 0…18446744073709551615, not '" + std::string(text) + "'");
+}
+
 Result<double> read_budget_ms(std::string_view text) {
   std::string_view digits = text;
   if (digits.ends_with("ms")) digits.remove_suffix(2);
@@ -283,6 +292,7 @@ Status check_texts(Options& options, const RawTexts& raw) {
   options.scale_given = raw.scale.has_value();
   if (raw.time) GLOAM_TRY(read_seconds("--time", *raw.time, options.time_s));
   if (raw.dt) GLOAM_TRY(read_seconds("--dt", *raw.dt, options.dt_s));
+  if (raw.seed) GLOAM_TRY(read_seed(*raw.seed, options.seed));
   if (raw.shard) {
     if (options.scene_list.empty()) return usage("--shard needs --list FILE");
     GLOAM_TRY(read_shard(*raw.shard, options.shard));

@@ -20,10 +20,12 @@ void add_point(StabilityCheck& check, double at, double error, const std::string
 
 std::vector<SelfTestCheck> selftest_checks() {
   std::vector<SelfTestCheck> checks;
+  add_kernel_checks(checks);
   add_count_checks(checks);
   add_invariance_checks(checks);
   add_place_curves(checks);
   add_condition_curves(checks);
+  add_range_curves(checks);
   add_finite_check(checks);
   return checks;
 }

@@ -21,6 +21,8 @@ struct SelfTestCheck {
   std::function<Status(SelfTestContext&, StabilityCheck&)> run;
 };
 
+/// Kernels alone against their twins on the CPU.
+void add_kernel_checks(std::vector<SelfTestCheck>& checks);
 /// What the GPU counts against brute force, and that no value of any picture is not finite. The last ones must run
 /// after all others.
 void add_count_checks(std::vector<SelfTestCheck>& checks);
@@ -30,6 +32,8 @@ void add_invariance_checks(std::vector<SelfTestCheck>& checks);
 /// Errors against place, scale, exposure, time, size and so on.
 void add_place_curves(std::vector<SelfTestCheck>& checks);
 void add_condition_curves(std::vector<SelfTestCheck>& checks);
+/// Errors against the size and the range of lights, the slope of receivers, and the depth range of the camera.
+void add_range_curves(std::vector<SelfTestCheck>& checks);
 
 /// All checks, in the order in which they run.
 [[nodiscard]] std::vector<SelfTestCheck> selftest_checks();

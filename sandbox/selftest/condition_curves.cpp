@@ -8,54 +8,10 @@
 #include <vector>
 
 #include "engine/core/text/formatted.h"
-#include "sandbox/selftest/checks.h"
+#include "sandbox/selftest/condition_curve.h"
 
 namespace gloam {
 namespace {
-
-/// The error of a scene at a value of an axis. usual: the picture under usual conditions.
-using ErrorAt = std::function<Result<double>(SelfTestContext& context, const TestPicture& usual, double value)>;
-
-struct ConditionCurve {
-  StabilityCheck check;
-  const char* axis_unit;
-  bool quick = false;
-  std::vector<double> values;
-  std::function<Result<TestPicture>(SelfTestContext&)> usual;
-  ErrorAt error_at;
-};
-
-Status run_condition(SelfTestContext& context, StabilityCheck& check, const ConditionCurve& curve) {
-  auto usual = curve.usual ? curve.usual(context) : Result<TestPicture>(TestPicture());
-  if (!usual) return usual.error();
-  for (std::size_t i = 0; i < curve.values.size(); ++i) {
-    const double value = curve.values[i];
-    const bool inside = value >= check.promised->low && value <= check.promised->high;
-    const bool is_end = i == 0 || i + 1 == curve.values.size();
-    if (context.quick() && (!inside || (!is_end && i % 3 != 0))) continue;
-    const auto error = curve.error_at(context, *usual, value);
-    if (!error) return error.error();
-    add_point(check, value, *error, formatted("%g %s", value, curve.axis_unit));
-  }
-  return {};
-}
-
-StabilityCheck curve_check(const char* name, const char* sentence, const char* unit, double bound, const char* advice,
-                           const char* axis, StabilityRange promised) {
-  return {.name = name,
-          .kind = StabilityKind::curve,
-          .sentence = sentence,
-          .unit = unit,
-          .bound = bound,
-          .advice = advice,
-          .axis = axis,
-          .promised = promised};
-}
-
-Result<double> difference(const Result<TestPicture>& drawn, const TestPicture& usual) {
-  if (!drawn) return drawn.error();
-  return mean_difference(*drawn, usual);
-}
 
 Result<double> relative_light(const Result<TestPicture>& drawn, const TestPicture& usual) {
   if (!drawn) return drawn.error();
@@ -72,7 +28,7 @@ ConditionCurve exposure() {
                                "exposure, EV", {-10.0, 20.0}),
           .axis_unit = "EV",
           .quick = true,
-          .values = {-20.0, -10.0, -5.0, 0.0, 6.0, 10.0, 15.0, 20.0, 30.0},
+          .values = {-20.0, -10.0, -9.3, -5.0, -0.47, 0.0, 6.61, 10.0, 14.8, 19.9, 20.0, 30.0},
           .usual = usual_of("lamp"),
           .error_at = [](SelfTestContext& context, const TestPicture& usual, double value) {
             TestScene scene = effect_scene("lamp").make();
@@ -111,7 +67,7 @@ ConditionCurve near_plane() {
                                "distance of the near plane, m", {1e-4, 0.5}),
           .axis_unit = "m",
           .quick = false,
-          .values = {1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 0.01, 0.1, 0.5},
+          .values = {1e-7, 1e-6, 1e-5, 1e-4, 3.1e-4, 1e-3, 7.7e-3, 0.01, 0.063, 0.1, 0.37, 0.5},
           .usual = usual_of("lamp"),
           .error_at = [](SelfTestContext& context, const TestPicture& usual, double value) {
             TestScene scene = effect_scene("lamp").make();
@@ -218,27 +174,19 @@ ConditionCurve frame_time(const char* name, const char* scene, const char* sente
                 });
 }
 
-void add(ConditionCurve curve, std::vector<SelfTestCheck>& checks) {
-  const StabilityCheck check = curve.check;
-  const bool quick = curve.quick;
-  checks.push_back({check, quick, [own = std::move(curve)](SelfTestContext& context, StabilityCheck& result) {
-                      return run_condition(context, result, own);
-                    }});
-}
-
 }  // namespace
 
 void add_condition_curves(std::vector<SelfTestCheck>& checks) {
-  add(exposure(), checks);
-  add(lights_at_one_place(), checks);
-  add(near_plane(), checks);
-  add(field_of_view(), checks);
-  add(picture_size(), checks);
-  add(grazing_light(), checks);
-  add(running_time("running_time.smoke", "smoke", "mean light of smoke, by the time since the start"), checks);
-  add(pause("pause.lawn", "lawn", "mean light of grass in the wind, by a pause between two frames"), checks);
-  add(frame_time("frame_time.smoke", "smoke", "mean light of smoke, by the time step"), checks);
-  add(frame_time("frame_time.lawn", "lawn", "mean light of grass in the wind, by the time step"), checks);
+  add_curve(exposure(), checks);
+  add_curve(lights_at_one_place(), checks);
+  add_curve(near_plane(), checks);
+  add_curve(field_of_view(), checks);
+  add_curve(picture_size(), checks);
+  add_curve(grazing_light(), checks);
+  add_curve(running_time("running_time.smoke", "smoke", "mean light of smoke, by the time since the start"), checks);
+  add_curve(pause("pause.lawn", "lawn", "mean light of grass in the wind, by a pause between two frames"), checks);
+  add_curve(frame_time("frame_time.smoke", "smoke", "mean light of smoke, by the time step"), checks);
+  add_curve(frame_time("frame_time.lawn", "lawn", "mean light of grass in the wind, by the time step"), checks);
 }
 
 }  // namespace gloam

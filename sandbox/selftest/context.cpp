@@ -13,6 +13,7 @@
 #include "sandbox/output/file_io.h"
 #include "sandbox/output/pictures/image_io.h"
 #include "sandbox/session/baking/captures.h"
+#include "sandbox/session/drawing/frame_run.h"
 #include "sandbox/session/drawing/session_costs.h"
 #include "sandbox/session/loading/scene_loading.h"
 #include "sandbox/session/session.h"
@@ -93,7 +94,10 @@ SelfTestContext::SelfTestContext(const Options& options, LogSink& log, std::shar
       log_(log),
       device_(std::move(device)),
       shaders_(std::move(shaders)),
-      folder_(scratch_folder()) {}
+      lab_(*device_, log_),
+      folder_(scratch_folder()) {
+  for (const ChangedShader& changed : shaders_) lab_.replace_shader(changed.shader->name, changed.words);
+}
 
 SelfTestContext::~SelfTestContext() {
   std::error_code fault;
@@ -130,13 +134,15 @@ Result<TestPicture> SelfTestContext::draw_file(const std::string& path, const Te
   if (!opened) return opened.error();
   Session& session = **opened;
   const ViewRequest request{session.view_settings(view.width, view.height, "none"), {}};
+  FrameRun run(session, view.in_flight);
   for (std::uint32_t frame = 0; frame < view.frames; ++frame) {
     session.set_clock(view.time_s + frame * view.dt_s + (frame > 0 ? view.pause_s : 0.0),
                       view.dt_s + (frame == 1 ? view.pause_s : 0.0));
-    const auto drawn = session.render_frame(request);
-    if (!drawn) return drawn.error();
-    counters_ = drawn->report.counters;
+    GLOAM_TRY(run.draw(request));
   }
+  const auto drawn = run.finish();
+  if (!drawn) return drawn.error();
+  counters_ = drawn->back().report.counters;
   GLOAM_TRY(session.check_validation());
   auto picture = read_back(session, request.settings.id);
   if (!picture) return picture;
@@ -183,11 +189,9 @@ Result<TestPicture> SelfTestContext::draw_builtin(const std::string& name, const
   return draw_file(name, view);
 }
 
-Result<double> SelfTestContext::reference_error(const EffectScene& scene, const std::string& knob,
-                                                const std::vector<KnobOverride>& knobs, std::uint32_t samples) {
-  TestView view = view_of(scene);
-  view.knobs.insert(view.knobs.end(), knobs.begin(), knobs.end());
-  const auto path = write_scene(scene.make(), {});
+Result<double> SelfTestContext::reference_error(const TestScene& scene, const TestView& view, const std::string& knob,
+                                                std::uint32_t samples) {
+  const auto path = write_scene(scene, {});
   if (!path) return path.error();
   const Options options = options_for(*path, view);
   auto opened = open(options);

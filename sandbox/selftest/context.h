@@ -12,6 +12,7 @@
 #include "engine/core/log.h"
 #include "engine/core/result.h"
 #include "engine/gpu/device.h"
+#include "engine/render/kernel_check/kernel_lab.h"
 #include "engine/render/knobs/knobs.h"
 #include "sandbox/options.h"
 #include "sandbox/selftest/changed_shaders.h"
@@ -43,8 +44,9 @@ struct TestView {
   std::uint32_t frames = 3;  ///< the last one is the picture
   double time_s = 0.0;       ///< of the first frame
   double dt_s = 1.0 / 60.0;
-  double pause_s = 0.0;       ///< between the first frame and the second, beside dt_s
-  std::uint32_t threads = 0;  ///< 0: one per core
+  double pause_s = 0.0;         ///< between the first frame and the second, beside dt_s
+  std::uint32_t threads = 0;    ///< 0: one per core
+  std::uint32_t in_flight = 1;  ///< frames that may be unfinished at a time
 };
 [[nodiscard]] TestView view_of(const EffectScene& scene);
 
@@ -67,10 +69,12 @@ class SelfTestContext {
   /// Against what the module that declares `knob` states as its reference (Module::references): the mean difference of
   /// linear light over the mean light of the reference, or of the shown colours if that is all it gives, or its
   /// distance, such as millimetres.
-  [[nodiscard]] Result<double> reference_error(const EffectScene& scene, const std::string& knob,
-                                               const std::vector<KnobOverride>& knobs, std::uint32_t samples);
+  [[nodiscard]] Result<double> reference_error(const TestScene& scene, const TestView& view, const std::string& knob,
+                                               std::uint32_t samples);
   /// Counters of the last picture's last frame.
   [[nodiscard]] const std::map<std::string, double>& counters() const { return counters_; }
+  /// Where kernels are run alone, with the same shaders.
+  [[nodiscard]] KernelLab& lab() { return lab_; }
   /// Values of all pictures so far that are not finite, and the first scene that had one.
   [[nodiscard]] std::size_t non_finite() const { return non_finite_; }
   [[nodiscard]] const std::string& first_non_finite() const { return first_non_finite_; }
@@ -86,6 +90,7 @@ class SelfTestContext {
   LogSink& log_;
   std::shared_ptr<gpu::Device> device_;
   std::vector<ChangedShader> shaders_;
+  KernelLab lab_;
   std::string folder_;                                       ///< of the scenes' files; removed at the end
   std::map<std::string, std::optional<TestPicture>> usual_;  ///< by name of the effect scene
   std::map<std::string, double> counters_;

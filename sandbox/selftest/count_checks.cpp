@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/text/formatted.h"
 #include "sandbox/selftest/checks.h"
 
 namespace gloam {
@@ -60,8 +61,11 @@ void add_reference(const ReferenceCase& own, std::vector<SelfTestCheck>& checks)
                           .bound = own.bound,
                           .advice = own.advice};
   checks.push_back({std::move(check), own.quick, [own](SelfTestContext& context, StabilityCheck& result) -> Status {
-                      const auto error = context.reference_error(effect_scene(own.scene), own.knob, own.knobs,
-                                                                 context.quick() ? 64 : 256);
+                      const EffectScene& scene = effect_scene(own.scene);
+                      TestView view = view_of(scene);
+                      view.knobs.insert(view.knobs.end(), own.knobs.begin(), own.knobs.end());
+                      const auto error =
+                          context.reference_error(scene.make(), view, own.knob, context.quick() ? 64 : 256);
                       if (!error) return error.error();
                       add_case(result, *error, own.scene);
                       return {};
@@ -94,6 +98,28 @@ Status count_non_finite(SelfTestContext& context, StabilityCheck& check) {
   return {};
 }
 
+/// A lamp a centimetre over the floor. At 10⁶ cd its light does not fit into half floats. Light is scaled by the
+/// exposure before it is stored, so that at −100 EV, with 10⁹ cd, it does not fit into floats either: numbers between
+/// the two are rounded to the greatest half or to infinity, as the device likes.
+Status count_non_finite_glare(SelfTestContext& context, StabilityCheck& check) {
+  struct Glare {
+    double candela, exposure;
+  };
+  for (const Glare& glare : {Glare{1e6, 0.0}, Glare{1e9, -100.0}}) {
+    TestScene scene = bare_floor();
+    scene.keys()["gloam.exposure"] = glare.exposure;
+    scene.light("point", {0.0, 0.01, 0.0}, glare.candela, {{"range", 9.0}});
+    const std::size_t before = context.non_finite();
+    const auto drawn = context.draw(scene, {}, {.knobs = {{"shadows.mode", "off"}}});
+    if (!drawn) return drawn.error();
+    const std::size_t middle = 4 * (drawn->height / 2 * drawn->width + drawn->width / 2);
+    const std::size_t not_white = drawn->rgba[middle] < 255 ? 1 : 0;
+    add_case(check, static_cast<double>(context.non_finite() - before + not_white),
+             formatted("%g cd at %g EV", glare.candela, glare.exposure));
+  }
+  return {};
+}
+
 }  // namespace
 
 void add_count_checks(std::vector<SelfTestCheck>& checks) {
@@ -109,6 +135,15 @@ void add_count_checks(std::vector<SelfTestCheck>& checks) {
 }
 
 void add_finite_check(std::vector<SelfTestCheck>& checks) {
+  checks.push_back({{.name = "finite.glare",
+                     .kind = StabilityKind::kernel,
+                     .sentence = "values of pictures of a lamp of 10⁶ cd and more, a centimetre over a floor, that are "
+                                 "not finite, or not white at the lamp",
+                     .unit = "values",
+                     .bound = 0.0,
+                     .advice = "Raise the exposure of scenes with lamps as bright as this one, and report the device"},
+                    true,
+                    &count_non_finite_glare});
   checks.push_back({{.name = "finite",
                      .kind = StabilityKind::kernel,
                      .sentence = "values of all pictures of this run that are not finite",

@@ -150,6 +150,17 @@ void add_invariance_checks(std::vector<SelfTestCheck>& checks) {
                                 view.threads = 1;
                                 return context.draw(scene.make(), {}, view);
                               }));
+  checks.push_back(
+      each_scene({.name = "equal.in_flight",
+                  .sentence = "frames drawn without a wait between them against frames that are waited for",
+                  .unit = kLevels,
+                  .bound = 0.0,
+                  .advice = "Use --in-flight 1, and report the device"},
+                 false, false, [](SelfTestContext& context, const EffectScene& scene) {
+                   TestView view = view_of(scene);
+                   view.in_flight = gpu::Device::kFramesInFlight;
+                   return context.draw(scene.make(), {}, view);
+                 }));
   checks.push_back(each_scene({.name = "equal.turned",
                                .sentence = "the scene turned by 90 degrees",
                                .unit = kLevels,

@@ -165,8 +165,11 @@ void TestScene::camera(const dvec3& at, const dquat& rotation, double yfov, doub
   nodes_.push_back({at, rotation, {{"camera", cameras_.size() - 1}, {"extras", std::move(extras)}}});
 }
 
-void TestScene::set_lens(double yfov, double znear) {
-  for (Json& camera : cameras_) camera["perspective"] = {{"yfov", yfov}, {"znear", znear}};
+void TestScene::set_lens(double yfov, double znear, double zfar) {
+  for (Json& camera : cameras_) {
+    camera["perspective"] = {{"yfov", yfov}, {"znear", znear}};
+    if (zfar > 0.0) camera["perspective"]["zfar"] = zfar;
+  }
 }
 
 void TestScene::node(const dvec3& at, Json extras) {
@@ -215,7 +218,9 @@ TestSceneFiles TestScene::gltf(const Placement& placement) const {
   Json lights = lights_, cameras = cameras_, extras = extras_;
   for (Json& light : lights)
     if (light.contains("range")) light["range"] = light["range"].get<double>() * scale;
-  for (Json& camera : cameras) camera["perspective"]["znear"] = camera["perspective"]["znear"].get<double>() * scale;
+  for (Json& camera : cameras)
+    for (const char* plane : {"znear", "zfar"})
+      if (Json& lens = camera["perspective"]; lens.contains(plane)) lens[plane] = lens[plane].get<double>() * scale;
   if (scale != 1.0) extras["gloam.scale"] = 1.0 / scale;
   const Json scene = {{"nodes", roots}, {"extras", extras}};
   const Json bin = {{"byteLength", buffer.bytes.size()}, {"uri", kTestSceneBuffer}};

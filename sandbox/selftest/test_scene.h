@@ -49,8 +49,8 @@ class TestScene {
              Json extras = Json::object(), const dquat& rotation = kDown);
   void camera(const dvec3& at, const dquat& rotation, double yfov = 0.8, double znear = 0.05,
               Json extras = Json::object());
-  /// Changes the angle (radians) and the near plane of all cameras.
-  void set_lens(double yfov, double znear);
+  /// Changes the angle (radians) and the near plane of all cameras. zfar: 0: none.
+  void set_lens(double yfov, double znear, double zfar = 0.0);
   /// A node with keys only.
   void node(const dvec3& at, Json extras);
   /// Keys of the last node, and of the scene.

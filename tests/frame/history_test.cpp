@@ -139,6 +139,7 @@ TEST_F(HistoryTest, a_resource_in_place_is_one_object_that_stays_valid_without_w
   EXPECT_EQ(bytes_of_module("test"), 64u);
 }
 
+// Hard case: passes.history_first
 TEST_F(HistoryTest, contents_that_no_frame_has_written_stay_undefined) {
   EXPECT_EQ(knots_frame(std::nullopt).reset, HistoryReset::created);
   EXPECT_EQ(knots_frame(std::nullopt).reset, HistoryReset::created);
@@ -155,6 +156,7 @@ TEST_F(HistoryTest, a_pair_without_a_write_keeps_its_roles) {
   EXPECT_EQ(later.state.age, 2u);
 }
 
+// Hard case: passes.history_resize
 TEST_F(HistoryTest, another_size_makes_new_images_without_contents) {
   const Seen first = pair_frame(8);
   const Seen resized = pair_frame(16);
@@ -164,6 +166,7 @@ TEST_F(HistoryTest, another_size_makes_new_images_without_contents) {
   EXPECT_EQ(bytes_of_module("test"), 2u * 16 * 16 * 4);
 }
 
+// Hard case: passes.history_cut
 TEST_F(HistoryTest, a_camera_cut_resets_only_for_owners_that_ask_for_it) {
   (void)pair_frame();
   view.cut_frame = view.frame;
@@ -183,6 +186,7 @@ TEST_F(HistoryTest, a_cut_in_a_frame_that_did_not_use_the_pair_still_resets) {
   EXPECT_EQ(pair_frame().state.reset, HistoryReset::camera_cut);
 }
 
+// Hard case: passes.history_gap
 TEST_F(HistoryTest, a_gap_longer_than_the_owner_allows_resets) {
   use.reset.most_missed = 2;
   (void)pair_frame();
@@ -222,6 +226,7 @@ class GivenUp : public HistoryTest, public ::testing::WithParamInterface<Lost> {
 INSTANTIATE_TEST_SUITE_P(While, GivenUp,
                          ::testing::Values(Lost::declaring, Lost::compiling, Lost::recording, Lost::submitting));
 
+// Hard case: passes.history_given_up
 TEST_P(GivenUp, a_frame_leaves_the_pair_as_it_was) {
   (void)pair_frame();
   const Seen before = pair_frame();
@@ -236,6 +241,7 @@ TEST_P(GivenUp, a_frame_leaves_the_pair_as_it_was) {
   EXPECT_EQ(after.state.age, 1u);
 }
 
+// Hard case: passes.history_first
 TEST_P(GivenUp, a_first_frame_leaves_nothing) {
   EXPECT_EQ(pair_frame(8, GetParam()).state.reset, HistoryReset::created);
   idle_frame();

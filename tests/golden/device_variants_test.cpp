@@ -28,6 +28,7 @@ class DeviceVariants : public testing::TestWithParam<const char*> {
   }
 };
 
+// Hard case: passes.descriptor_pools
 TEST_P(DeviceVariants, pools_of_descriptor_sets_draw_the_picture_of_push_descriptors) {
   gpu::VulkanOptions options = test_device_options();
   options.push_descriptors = gpu::PushDescriptors::automatic;

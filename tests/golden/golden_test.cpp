@@ -131,6 +131,7 @@ class Courtyard : public Golden {
   static constexpr const char* kScene = GLOAM_SHARED_DIR "/scenes/courtyard/courtyard.gltf";
 };
 
+// Hard case: selftest.twice
 TEST_F(Courtyard, every_camera_draws_the_same_picture_twice) {
   for (const char* camera : {"court", "closeup", "lawn", "walkway", "down", "grazing"}) {
     Options options = golden_options(kScene, camera);
@@ -140,6 +141,7 @@ TEST_F(Courtyard, every_camera_draws_the_same_picture_twice) {
   }
 }
 
+// Hard case: selftest.tiled_brute
 TEST_F(Courtyard, tiled_culling_draws_what_brute_force_draws) {
   for (const char* camera : {"court", "closeup", "walkway"}) {
     Options options = golden_options(kScene, camera);

@@ -82,6 +82,7 @@ class LightFlight : public testing::Test {
 };
 
 /// GLOAM_TEST_SCALE=2 flies through all 1024 lights, in a larger picture.
+// Hard case: selftest.tiled_brute
 TEST_F(LightFlight, each_of_300_frames_through_many_lights_equals_brute_force) {
   const auto session = open("builtin:many_lights");
   ASSERT_NE(session, nullptr);

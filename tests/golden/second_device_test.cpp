@@ -23,6 +23,7 @@ namespace {
 
 class SecondDevice : public testing::TestWithParam<std::string> {};
 
+// Hard case: passes.second_device
 TEST_P(SecondDevice, draws_the_picture_of_the_first) {
   auto first = device_named("llvmpipe");
   auto second = device_named("swiftshader");

@@ -19,7 +19,8 @@ LAYERS = {
 }
 # Separate projects, which see our headers as installed and their own headers by their names.
 HOSTS = ("tests/embedding/host/", "tests/embedding/host_cpu/", "tests/embedding/host_ecs/")
-MODULE_LIST = module_graph.LIST  # knows every module; no module may include it
+MODULE_LIST = module_graph.LIST  # knows every module and its checks of kernels; no module may include it
+KERNEL_CHECKS = ["reference", "kernel_checks.h"]
 # The headers of a module that others may include; a few modules have more.
 MODULE_PUBLIC = ("components.h", "module.h", "outputs.h")
 MODULE_PUBLIC_TOO = {"lights": ("light_names.h",), "particles": ("bake.h", "baked_light.h"), "reflections": ("bake.h", "captures.h"),
@@ -41,16 +42,16 @@ ROOMS = {
     "modules/shadows": (("views", "atlas", "maps", "filter", "final_lists", "reference", "debug"),
                         ("components", "outputs", "knobs", "reference")),
     "modules/closeups": (("umbra", "pairs", "compose", "debug"), ("components", "knobs")),
-    "modules/lighting": (("antialiasing", "display"), ("components", "outputs", "knobs", "environment", "lighting_passes")),
+    "modules/lighting": (("antialiasing", "display", "reference"), ("components", "outputs", "knobs", "environment", "lighting_passes")),
     "modules/reflections": (("culling", "proxies", "planar", "probes", "passes", "fitting", "bake", "reference", "debug"),
                             ("components", "captures", "bake", "override", "knobs", "frame", "bindings", "materials", "scene_unit")),
     "modules/grass": (("growth", "field", "lod", "simulation", "drawing", "reference", "debug"), ("components", "knobs", "frame")),
     "modules/particles": (("emitters", "bake", "simulation", "sorting", "lighting", "drawing", "reference", "debug"),
                           ("components", "baked_light", "bake", "knobs", "frame")),
-    "modules/depth_of_field": (("lens", "tiles", "blur", "compose", "reference", "debug"), ("components", "knobs", "frame")),
-    "shaders/render": (("sort", "gbuffer"), None),
+    "modules/depth_of_field": (("lens", "tiles", "blur", "compose", "reference", "debug"), ("components", "knobs", "frame", "dof_passes")),
+    "shaders/render": (("sort", "gbuffer", "kernel_check"), None),
     "shaders/lights": (("lists", "debug"), None),
-    "shaders/lighting": (("opaque", "blended", "antialiasing", "display"), None),
+    "shaders/lighting": (("opaque", "blended", "antialiasing", "display", "kernel_check"), None),
     "shaders/depth_of_field": (("tiles", "blur", "compose", "debug"), None),
     "engine/core": (("storage", "text"), None),
     "engine/jobs": (("pool", "conformance"), ("executor", "first_failure", "job_graph", "executor_conformance")),
@@ -62,7 +63,7 @@ ROOMS = {
                      ("assets", "components", "resources", "scene_path", "transforms", "units")),
     "engine/scene/gltf": (("parsing", "validation", "buffers", "assets", "entities"), ("document", "place")),
     "engine/render": (("knobs", "governor", "camera", "pipelines", "packing", "uploads", "scene", "draws", "declare", "resources", "sort",
-                       "passes", "readback", "reference", "worlds", "modules_in_use", "views", "report", "frame", "redraw"),
+                       "passes", "readback", "reference", "kernel_check", "worlds", "modules_in_use", "views", "report", "frame", "redraw"),
                       ("view", "outputs", "frame_builder", "host_geometry", "module", "view_request", "frame_report",
                        "renderer_options", "board")),
     "sandbox/output": (("pictures",), ("file_io", "json_text")),
@@ -75,7 +76,7 @@ ROOMS = {
     "shaders/shadows": (("maps", "filter", "final_lists", "debug"), None),
     "shaders/grass": (("lod", "simulation", "drawing", "debug"), None),
     "shaders/particles": (("simulation", "sorting", "lighting", "drawing", "debug"), None),
-    "shaders/reflections": (("culling", "proxies", "probes", "passes", "debug"), None),
+    "shaders/reflections": (("culling", "proxies", "probes", "passes", "debug", "kernel_check"), None),
 }
 
 # Third-party headers: the folders that may include them, and those that a public header may not include.
@@ -144,6 +145,8 @@ def cpp_arrow(parts, target):
         if kind == "engine":
             return "the engine knows no module"
         if to_own == own:
+            return None
+        if own == MODULE_LIST and target[2:] == KERNEL_CHECKS:
             return None
         if kind == "modules" and own != MODULE_LIST and to_own not in MODULE_REACH[own]:
             return f"modules/{own} does not stand on modules/{to_own}"

@@ -193,10 +193,19 @@ TEST(Options, an_effect_has_a_budget_of_its_own) {
   EXPECT_EQ(parsed({"bench", "governor", "--budget", "fog=8ms"}).effect_budgets.at(0).effect, "fog");
 }
 
+// Hard case: further.seed_limits
 TEST(Options, the_help_says_that_the_seed_seeds_nothing_yet) {
   const std::string help = std::get<PrintAndLeave>(*parse({"render", "--help"})).text;
   EXPECT_NE(help.find("--seed"), std::string::npos);
   EXPECT_NE(help.find("pictures do not depend on it"), std::string::npos) << help;
+}
+
+// Hard case: further.seed_limits
+TEST(Options, seeds_are_whole_numbers_of_64_bits) {
+  for (const char* seed : {"-1", "18446744073709551616", "1.5", "0x10", "+1", "", " 1", "1e3", "nan"})
+    EXPECT_NE(fault({"render", "a.gltf", "--seed", seed}).find("--seed"), std::string::npos) << seed;
+  EXPECT_EQ(parsed({"render", "a.gltf", "--seed", "0"}).seed, 0u);
+  EXPECT_EQ(parsed({"render", "a.gltf", "--seed", "18446744073709551615"}).seed, ~std::uint64_t{0});
 }
 
 TEST(Options, the_help_of_bench_tells_one_batch_from_separate_jobs) {

@@ -42,6 +42,7 @@ TEST(SceneNames, a_misspelt_name_is_answered_with_the_nearest_one_before_the_lis
       << "names of another kind are no answer";
 }
 
+// Hard case: scene.name_twice
 TEST(SceneNames, a_name_that_two_share_is_an_error_only_when_used) {
   SceneNames names;
   names.add("light", "torch", {1, 1});

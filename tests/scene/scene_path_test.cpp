@@ -29,6 +29,7 @@ TEST(ScenePath, may_hold_colons_that_mark_no_scheme) {
   EXPECT_EQ(*resolve_scene_path("dir", "12:30.png"), "dir/12:30.png");
 }
 
+// Hard case: scene.path_leaves
 TEST(ScenePath, refuses_whatever_leaves_the_folder) {
   for (const char* uri : {"../a.bin", "a/../../b.bin", "/etc/passwd", "%2e%2e/a.bin", "%2E%2e%2fa.bin", "..\\a.bin",
                           "\\\\host\\a", "C:/a.bin", "c:a.bin", "data:x", "file:///etc/passwd",

@@ -38,6 +38,7 @@ class PassFrames {
   [[nodiscard]] FrameGraph& graph() { return graph_; }
   /// Knobs that the passes read; none are registered at first.
   [[nodiscard]] KnobRegistry& knobs() { return knobs_; }
+  [[nodiscard]] Pipelines& pipelines() { return pipelines_; }
 
  private:
   gpu::Device& device_;

@@ -50,6 +50,7 @@ TEST_F(PlanCacheTest, the_plan_used_longest_ago_is_dropped) {
   EXPECT_EQ(graph.plans_compiled(), kept + 2);
 }
 
+// Hard case: passes.knob_step_memory
 TEST_F(PlanCacheTest, plans_that_fit_the_memory_allocate_nothing) {
   run_image_frame(64);
   const std::uint64_t allocations = device->allocations();
@@ -151,6 +152,7 @@ TEST_F(PlanCacheTest, the_first_barriers_of_another_plan_wait_for_all_users_of_t
   EXPECT_EQ(run_clear(64), "barrier 'image' none|transfer_write>transfer_write");
 }
 
+// Hard case: passes.memory_types
 TEST_F(PlanCacheTest, depth_and_colour_have_memory_of_different_types) {
   run_frame([](FrameGraph& g) {
     PassBuilder first = g.add_pass("depth", "test");

@@ -47,6 +47,7 @@ TEST(Stability, holds_up_to_the_bound_and_only_for_numbers) {
   EXPECT_TRUE(holds(check));
 }
 
+// Hard case: selftest.validity
 TEST(Stability, the_range_is_the_widest_run_of_points_that_keep_the_bound) {
   const auto range = range_within_bound(curve({{0.1, 0.9}, {1, 0.1}, {10, 0.2}, {100, 0.5}, {1e3, 0.6}, {1e4, 0.1}}));
   ASSERT_TRUE(range);

@@ -171,6 +171,7 @@ TEST_F(CloseupFrames, leave_pixels_beside_a_thin_subject_alone) {
   for (std::size_t tile = 0; tile < with.slots.size(); ++tile) EXPECT_NE(with.slots[tile], GLOAM_ALL_UNLIT) << tile;
 }
 
+// Hard case: shadows.closeup_light_inside
 TEST_F(CloseupFrames, of_a_light_inside_the_subject_are_left_to_the_standard_map) {
   put_scene();
   put_light(point(), dvec3(0.15, 0.8, 0.32), dvec3(0.0, -1.0, 0.0), 256);
@@ -196,6 +197,7 @@ TEST_F(CloseupFrames, reach_no_receiver_before_the_subject) {
   EXPECT_GT(expect_right_closeup("before the subject", lamp).darker, 100u);
 }
 
+// Hard case: shadows.closeup_beyond_far
 TEST_F(CloseupFrames, end_with_the_reach_of_the_light) {
   for (const double range : {2.1, 2.6}) {
     clear_scene();
@@ -211,6 +213,7 @@ TEST_F(CloseupFrames, end_with_the_reach_of_the_light) {
   }
 }
 
+// Hard case: shadows.closeup_beyond_far
 TEST_F(CloseupFrames, of_a_sun_reach_as_far_as_anything_lies) {
   put_scene(dvec3(0.15, 1.4, 0.6), 0.8);
   put(plane_, flat(-3.0) * glm::scale(dmat4(1.0), dvec3(8.0)));
@@ -219,6 +222,7 @@ TEST_F(CloseupFrames, of_a_sun_reach_as_far_as_anything_lies) {
   EXPECT_GT(expect_right_closeup("far wall", lamp).darker, 50u);
 }
 
+// Hard case: shadows.closeup_behind_light
 TEST_F(CloseupFrames, of_a_subject_behind_a_spot_change_nothing) {
   put_scene(dvec3(0.2, 1.3, 0.9), 0.5);
   const Entity lamp = put_light(spot(40.0), dvec3(0.2, 1.1, 0.5), dvec3(0.0, -0.6, -1.0), 512);
@@ -234,6 +238,7 @@ TEST_F(CloseupFrames, of_a_subject_behind_a_spot_change_nothing) {
   }
 }
 
+// Hard case: shadows.closeup_behind_camera
 TEST_F(CloseupFrames, of_subjects_at_the_camera_are_right) {
   for (const double ahead : {0.6, 0.1}) {
     clear_scene();
@@ -250,6 +255,7 @@ TEST_F(CloseupFrames, of_subjects_at_the_camera_are_right) {
   }
 }
 
+// Hard case: shadows.closeup_larger_than_cone
 TEST_F(CloseupFrames, of_subjects_larger_than_a_cone_are_right) {
   put_scene(dvec3(0.1, 0.0, 0.2), 1.5);
   const Entity lamp = put_light(spot(14.0, 0.04f), dvec3(-0.9, 1.9, 1.9), dvec3(0.95, -1.0, -1.5), 2048);

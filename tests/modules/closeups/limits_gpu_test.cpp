@@ -45,6 +45,7 @@ class CloseupLimits : public CloseupScene {
 /// Parameter: bits per visibility.
 class CloseupSlots : public CloseupLimits, public ::testing::WithParamInterface<const char*> {};
 
+// Hard case: shadows.full_visibility_closeups
 TEST_P(CloseupSlots, are_made_up_for_by_standard_maps_where_there_are_none) {
   set("shadows.visibility_bits", GetParam());
   put_scene();
@@ -79,6 +80,7 @@ TEST_P(CloseupSlots, are_made_up_for_by_standard_maps_where_there_are_none) {
 INSTANTIATE_TEST_SUITE_P(Bits, CloseupSlots, ::testing::Values("8", "4"));
 
 // Tiles also fall back when tile-light pairs, not slots, run out. Compose must leave these tiles alone.
+// Hard case: shadows.full_slots_closeups
 TEST_F(CloseupLimits, tiles_without_a_list_show_subjects_from_standard_maps) {
   put_scene();
   put_lights_of_all_kinds();
@@ -99,6 +101,7 @@ bool made_an_overlay(const FrameReport& report) {
 
 // The tiles of the umbra ranges always have their slots. Slots are limited so that lists of other
 // tiles do not fit: these fall back, and nobody needs the subject in standard maps.
+// Hard case: shadows.full_visibility_closeups
 TEST_F(CloseupLimits, slots_of_umbra_tiles_are_reserved) {
   settings.width = 320, settings.height = 200;
   put_room();
@@ -205,6 +208,7 @@ TEST_F(CloseupLimits, nothing_is_done_without_subjects_in_view) {
 }
 
 // Values that make no sense in a scene: nothing may become NaN, and nothing may crash.
+// Hard case: shadows.all_finite
 TEST_F(CloseupLimits, values_out_of_reason_leave_everything_finite) {
   put_scene();
   put_lights_of_all_kinds();

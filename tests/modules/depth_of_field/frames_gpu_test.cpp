@@ -64,6 +64,7 @@ TEST_F(DofFrames, of_captures_are_in_focus) {
   EXPECT_TRUE(stage.draw().rgba == sharp);
 }
 
+// Hard case: dof.f_number_0, dof.focus_near_plane, dof.focus_infinity
 TEST_F(DofFrames, of_extreme_lenses_are_finite) {
   DofStage stage;
   add_quads(stage);
@@ -82,6 +83,7 @@ TEST_F(DofFrames, of_extreme_lenses_are_finite) {
     }
 }
 
+// Hard case: dof.size_1x1
 TEST_F(DofFrames, of_one_pixel_are_drawn) {
   DofStage stage;
   add_quads(stage);

@@ -47,6 +47,7 @@ TEST_F(FogFrames, are_those_of_the_twin_with_every_value_of_both_knobs) {
     }
 }
 
+// Hard case: further.size_1x1
 TEST_F(FogFrames, are_those_of_the_twin_at_odd_and_least_sizes) {
   for (const auto& [width, height] : {std::pair{127u, 71u}, {1u, 1u}, {3u, 200u}, {201u, 2u}}) {
     Shown shown(width, height);

@@ -46,6 +46,7 @@ class FogHard : public FogStageTest {
   }
 };
 
+// Hard case: fog.wide_lens
 TEST_F(FogHard, rays_to_the_corners_of_a_wide_lens_are_longer) {
   FogStage stage;
   stage.view.camera.fov_y = 2.4f;
@@ -53,6 +54,7 @@ TEST_F(FogHard, rays_to_the_corners_of_a_wide_lens_are_longer) {
   expect_wall(stage, 4.0, {0.1f, vec3(0.3f)});
 }
 
+// Hard case: fog.orthographic
 TEST_F(FogHard, orthographic_rays_are_all_as_long_as_the_depth) {
   FogStage stage;
   stage.view.camera.orthographic = true;
@@ -64,6 +66,7 @@ TEST_F(FogHard, orthographic_rays_are_all_as_long_as_the_depth) {
   expect_wall(stage, 4.0, {0.1f, vec3(0.3f)});
 }
 
+// Hard case: fog.near_planes
 TEST_F(FogHard, surfaces_are_as_far_as_they_are_with_near_planes_of_any_distance) {
   for (const float near_m : {1e-9f, 1e-6f, 0.1f, 5.0f}) {
     SCOPED_TRACE(near_m);
@@ -74,6 +77,7 @@ TEST_F(FogHard, surfaces_are_as_far_as_they_are_with_near_planes_of_any_distance
   }
 }
 
+// Hard case: fog.far_surfaces
 TEST_F(FogHard, far_surfaces_are_as_dim_as_the_sky) {
   for (const double depth_m : {150.0, 199.0, 250.0, 1e5, 1e8}) {
     FogStage stage;
@@ -85,12 +89,14 @@ TEST_F(FogHard, far_surfaces_are_as_dim_as_the_sky) {
   expect_wall(sky, std::numeric_limits<double>::infinity(), {0.01f, vec3(0.3f)});
 }
 
+// Hard case: fog.densities
 TEST_F(FogHard, densities_from_nothing_to_a_wall_before_the_camera) {
   FogStage stage;
   stage.glow({0.0, 0.0, -4.0}, 50.0f, vec3(2.0f, 1.0f, 0.5f));
   for (const float density : {1e-30f, 1e-5f, 1.0f, 30.0f, 1e3f}) expect_wall(stage, 4.0, {density, vec3(0.3f)});
 }
 
+// Hard case: fog.colours
 TEST_F(FogHard, colours_from_black_to_more_than_the_picture_can_hold) {
   for (const float color : {0.0f, 1e-4f, 65504.0f, 1e6f}) {
     FogStage stage;
@@ -99,6 +105,7 @@ TEST_F(FogHard, colours_from_black_to_more_than_the_picture_can_hold) {
   }
 }
 
+// Hard case: fog.strong_light
 TEST_F(FogHard, light_of_any_strength_stays_light_in_any_fog) {
   for (const float strength : {1e4f, 65504.0f, 1e8f})
     for (const float density : {1e-6f, 0.05f, 1e3f, std::numeric_limits<float>::infinity()})
@@ -115,6 +122,7 @@ TEST_F(FogHard, light_of_any_strength_stays_light_in_any_fog) {
 }
 
 // A dark square before bright surroundings: the glow reaches into it, the length of its rays does not leave it.
+// Hard case: fog.depth_edges
 TEST_F(FogHard, edges_of_depth_stay_sharp_while_the_glow_is_small) {
   FogStage stage;
   stage.sky(vec3(1.0f));
@@ -141,6 +149,7 @@ TEST_F(FogHard, edges_of_depth_stay_sharp_while_the_glow_is_small) {
 
 // The mirrored camera stands as far behind the mirror as the camera before it, so its rays are as long as those that
 // the mirror sends back.
+// Hard case: fog.mirrored
 TEST_F(FogHard, mirrored_views_have_the_fog_of_the_whole_way) {
   FogStage stage;
   Material lit{.base_color = vec4(0.0f, 0.0f, 0.0f, 1.0f), .metallic = 0.0f, .roughness = 1.0f};
@@ -153,6 +162,7 @@ TEST_F(FogHard, mirrored_views_have_the_fog_of_the_whole_way) {
 }
 
 // See FrontDepth (modules/lighting/outputs.h): reciprocal distances are averaged by opacity.
+// Hard case: fog.blended
 TEST_F(FogHard, blended_surfaces_count_by_their_opacity) {
   for (const double alpha : {0.0, 0.25, 0.75, 0.999}) {
     SCOPED_TRACE(alpha);
@@ -163,6 +173,7 @@ TEST_F(FogHard, blended_surfaces_count_by_their_opacity) {
   }
 }
 
+// Hard case: fog.far_from_origin
 TEST_F(FogHard, a_camera_far_from_the_origin_has_the_same_fog) {
   FogStage stage;
   const dvec3 far(4e6, -3e6, 5e6);

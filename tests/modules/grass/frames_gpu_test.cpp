@@ -110,6 +110,7 @@ TEST_F(GrassFrames, blades_with_fewer_segments_stay_near_their_stems) {
   expect_grass_on_stems(picture, stems, 1.0, pixel_m + 0.03);
 }
 
+// Hard case: grass.repeatable, grass.threads
 TEST_F(GrassFrames, pictures_repeat_for_every_number_of_threads_and_without_waiting) {
   Shown first;
   {
@@ -205,6 +206,7 @@ TEST_F(GrassFrames, nothing_pops_while_the_camera_draws_back) {
   }
 }
 
+// Hard case: grass.blades_1, grass.blades_3, grass.blades_4, grass.blades_5, grass.not_64
 TEST_F(GrassFrames, few_blades_are_all_drawn) {
   for (const std::uint32_t count : some_of<std::uint32_t>({1, 3, 4, 5, 64, 65, 255, 257})) {
     SCOPED_TRACE(count);
@@ -223,6 +225,7 @@ TEST_F(GrassFrames, few_blades_are_all_drawn) {
   }
 }
 
+// Hard case: grass.threshold_0, grass.threshold_most
 TEST_F(GrassFrames, thresholds_leave_out_the_far_blades) {
   GrassStage stage;
   GrassSurface values = wide();
@@ -245,6 +248,7 @@ TEST_F(GrassFrames, thresholds_leave_out_the_far_blades) {
   }
 }
 
+// Hard case: grass.camera_inside, grass.all_culled
 TEST_F(GrassFrames, a_camera_inside_a_blade_and_one_that_looks_away_draw_numbers) {
   GrassStage stage;
   stage.lawn(0.6f, 700);
@@ -286,6 +290,7 @@ TEST_F(GrassFrames, an_orthographic_view_shows_the_blades) {
   expect_grass_on_stems(picture, stems_of(stage.field(), stage.copy(), picture.with.view.position));
 }
 
+// Hard case: grass.at_100_km
 TEST_F(GrassFrames, a_scene_at_any_place_looks_and_moves_like_one_at_the_origin) {
   // No move is a multiple of a texel, of a step of the LOD or of the wind's period.
   const std::vector<dvec3> places = {dvec3(0.0), dvec3(10.0, 0.0, 0.0), dvec3(-3.37, 1.11, 123.4),
@@ -320,6 +325,7 @@ TEST_F(GrassFrames, a_scene_at_any_place_looks_and_moves_like_one_at_the_origin)
   }
 }
 
+// Hard case: grass.dt_0, grass.dt_1us, grass.dt_1s, grass.dt_10s, grass.dt_nan, further.dt_10
 TEST_F(GrassFrames, a_long_and_a_broken_frame_leave_the_field_whole) {
   GrassStage stage;
   stage.set("grass.lod_pixels", "0");

@@ -95,6 +95,7 @@ TEST_F(KeyTable, every_key_has_a_name_of_the_project_a_module_and_a_meaning) {
   }
 }
 
+// Hard case: scene.wrong_type, scene.out_of_range
 TEST_F(KeyTable, every_key_refuses_other_types_and_values_out_of_range) {
   for (const SceneKey& key : registry.keys()) {
     SCOPED_TRACE(key.name);

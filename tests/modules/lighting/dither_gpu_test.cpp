@@ -83,6 +83,7 @@ TEST_F(DitheredPicture, keeps_the_mean_of_light) {
   EXPECT_LT(worst, 1.6);
 }
 
+// Hard case: selftest.tone_curve
 TEST_F(DitheredPicture, rounds_as_the_reference) {
   ASSERT_NO_FATAL_FAILURE(draw());
   const LinearPicture light = linear();

@@ -126,6 +126,7 @@ struct LightScale : test::LitSceneTest {
   LinearPicture light_of_last_;
 };
 
+// Hard case: selftest.exposure
 TEST_F(LightScale, of_a_grey_card_under_a_sun_follows_the_exposure) { expect_one_picture(make_card); }
 
 TEST_F(LightScale, of_emission_lamps_metal_fog_and_lens_follows_the_exposure) {

@@ -94,6 +94,7 @@ TEST_F(Shading, of_a_spot_is_the_gltf_brdf_inside_its_cone) {
   expect_wall_as_computed();
 }
 
+// Hard case: shadows.cone_180
 TEST_F(Shading, of_a_spot_of_180_degrees_lights_up_to_its_plane) {
   wall();
   Light lamp;
@@ -320,6 +321,7 @@ TEST_F(Shading, of_a_light_straight_behind_a_surface_is_black) {
     for (std::uint32_t x = 0; x < settings.width; ++x) ASSERT_EQ(pixel(drawn, x, y), dvec3(0.0)) << x << "," << y;
 }
 
+// Hard case: further.size_7x5
 TEST_F(Shading, works_at_the_smallest_sizes) {
   wall();
   light(Light{}, dvec3(0.5, 0.4, 1.0));

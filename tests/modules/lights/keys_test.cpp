@@ -148,6 +148,7 @@ TEST(LightImport, takes_cones_of_up_to_180_degrees_as_files_round_them) {
   }
 }
 
+// Hard case: scene.cone_over_180
 TEST(LightImport, refuses_cones_over_180_degrees) {
   EXPECT_THAT(fault_of(R"({"type": "spot", "spot": {"outerConeAngle": 1.5709}})"),
               AllOf(HasSubstr("outerConeAngle"), HasSubstr("180°")));

@@ -59,6 +59,7 @@ TEST_F(LightNames, that_are_absent_are_an_error_that_names_key_name_and_what_the
               AllOf(HasSubstr("gloam.test.lights"), HasSubstr("\"lantern\""), HasSubstr("lamp, red torch")));
 }
 
+// Hard case: scene.name_twice
 TEST_F(LightNames, that_two_lights_share_are_an_error_only_when_used) {
   EXPECT_TRUE(resolve_light_names(world, "lamp", "key").ok());
   EXPECT_THAT(fault("twin"), AllOf(HasSubstr("gloam.test.lights"), HasSubstr("\"twin\""), HasSubstr("2 light nodes")));

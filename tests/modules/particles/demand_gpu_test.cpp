@@ -30,6 +30,7 @@ TEST_F(ParticleDemand, a_scene_without_an_emitter_has_no_particles_at_all) {
   expect_nothing();
 }
 
+// Hard case: particles.none, particles.lifetime_0
 TEST_F(ParticleDemand, emitters_that_emit_nothing_demand_nothing) {
   emit(0.0f);
   emit(-1.0f);
@@ -60,6 +61,7 @@ TEST_F(ParticleDemand, an_emitter_out_of_view_dispatches_and_draws_nothing) {
   EXPECT_EQ(state.pipelines, 0u);
 }
 
+// Hard case: particles.all_dead
 TEST_F(ParticleDemand, an_emitter_whose_particles_are_all_dead_dispatches_nothing) {
   emit(1.0f, 0.25f);
   world.resource<SceneClock>().time_s = 0.5;

@@ -91,6 +91,7 @@ TEST_F(ReflectionFrames, screen_space_shows_what_traced_rays_meet) {
     }
 }
 
+// Hard case: reflections.grazing_floor
 TEST_F(ReflectionFrames, screen_space_shows_what_traced_rays_meet_where_the_camera_grazes_the_mirror) {
   environment() = {.sky_zenith = {0.2f, 0.4f, 1.0f}, .sky_horizon = {0.7f, 0.6f, 0.5f}, .sky_ground = vec3(0.3f)};
   mirror_floor();
@@ -158,6 +159,7 @@ TEST_F(ReflectionFrames, pictures_are_reproducible_and_do_not_depend_on_the_numb
   }
 }
 
+// Hard case: reflections.odd_sizes
 TEST_F(ReflectionFrames, odd_sizes_and_resizing_draw_what_a_view_of_that_size_draws) {
   furnish(0.2f);
   proxy(vec2(3.0f), at(0.0, 1.0, -3.0));
@@ -177,6 +179,7 @@ TEST_F(ReflectionFrames, odd_sizes_and_resizing_draw_what_a_view_of_that_size_dr
   }
 }
 
+// Hard case: reflections.nan_light
 TEST_F(ReflectionFrames, light_that_is_no_number_does_not_spread) {
   furnish(0.3f);
   const float nan = std::numeric_limits<float>::quiet_NaN();
@@ -283,6 +286,7 @@ TEST_F(ReflectionFrames, lights_as_captured_leave_the_picture_as_it_is) {
   EXPECT_LT(with, 0.98 * without) << "captured colours are dimmed";
 }
 
+// Hard case: reflections.camera_on_plane
 TEST_F(ReflectionFrames, any_camera_and_any_knobs_give_numbers) {
   furnish(0.2f);
   proxy(vec2(3.0f), at(0.0, 1.0, -3.0));

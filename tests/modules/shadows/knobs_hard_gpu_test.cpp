@@ -9,6 +9,7 @@ namespace {
 
 using ShadowKnobValues = test::HardShadows;
 
+// Hard case: shadows.all_finite
 TEST_F(ShadowKnobValues, draw_numbers_whichever_they_are) {
   static_cast<void>(fill(world));
   settings.width = 48;

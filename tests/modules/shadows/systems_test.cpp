@@ -301,6 +301,7 @@ TEST(ShadowSystems, choose_sizes_anew_when_what_they_go_by_changes) {
   EXPECT_EQ(sizes(scene.run()), first);
 }
 
+// Hard case: shadows.full_atlas
 TEST(ShadowSystems, shrink_faces_of_a_full_atlas_and_say_so) {
   ShadowWorld scene;
   scene.add_random(400);

@@ -7,6 +7,7 @@ FIELDS = {"id", "value", "unit", "p10", "p90", "better", "holds", "hash"}
 
 
 class Bench(ProgramCase):
+    # Hard case: program.bench_ids
     def test_ids_are_listed_once_each(self):
         ids = self.expect(0, "bench", "--list").stdout.split()
         self.assertEqual(len(ids), len(set(ids)))
@@ -97,6 +98,14 @@ class Bench(ProgramCase):
         told = self.read_json("rows.json")
         self.assertEqual(told["rows"], [])
         self.assertEqual([row["id"] for row in told["skipped"]], ["reflections.bake.courtyard"])
+
+    # Hard case: program.bench_missed
+    def test_a_missed_bar_fails_only_when_it_shall(self):
+        # One thread is never 1.6 times as fast as one.
+        missed = ("bench", "lights.cpu_two_workers", "--threads", "1")
+        self.assertIn("MISSED", self.expect(0, *missed, "--json", "rows.json").stdout)
+        self.assertFalse(self.read_json("rows.json")["rows"][0]["holds"])
+        self.expect(1, *missed, "--strict", says="bars missed: lights.cpu_two_workers")
 
     def test_quiet_prints_nothing(self):
         self.assertEqual(self.expect(0, "bench", "jobs.fork_join", "--quiet").stdout, "")

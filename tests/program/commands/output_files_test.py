@@ -22,6 +22,7 @@ class OutputFiles(ProgramCase):
         return subprocess.run([self.program, *SMALL, *arguments], cwd=self.folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                               stderr=subprocess.PIPE, env=dict(os.environ, XDG_CACHE_HOME=CACHE.name), timeout=280, check=False, **options)
 
+    # Hard case: program.streams
     def test_standard_streams_receive_the_data(self):
         (self.folder / "out.json").symlink_to("/dev/stdout")
         (self.folder / "errors.json").symlink_to("/dev/stderr")
@@ -34,6 +35,7 @@ class OutputFiles(ProgramCase):
                 self.assertEqual(json.loads(getattr(run, stream))["version"], 1)
         self.assertTrue((self.folder / "out.json").is_symlink())
 
+    # Hard case: program.streams
     def test_standard_output_receives_pictures(self):
         (self.folder / "out.png").symlink_to("/dev/stdout")
         for path in ("/dev/stdout", "out.png"):
@@ -51,6 +53,7 @@ class OutputFiles(ProgramCase):
         self.assertEqual(text.count('"version": 1'), 1)
         self.assertIn("pixel 3,3", text)
 
+    # Hard case: program.closed_stream
     def test_a_closed_stream_is_an_error(self):
         run = subprocess.run(["sh", "-c", 'exec "$@" >&-', "sh", self.program, *SMALL, "--out", "p.png", "--stats", "/dev/stdout"],
                              cwd=self.folder, stderr=subprocess.PIPE, text=True, env=dict(os.environ, XDG_CACHE_HOME=CACHE.name), timeout=280,
@@ -58,6 +61,7 @@ class OutputFiles(ProgramCase):
         self.assertEqual(run.returncode, 1, run.stderr)
         self.assertIn("/dev/stdout: cannot be written", run.stderr)
 
+    # Hard case: program.full_disk
     def test_a_full_disk_leaves_old_files_whole_and_nothing_else(self):
         names = {"p.png": "--out", "p.exr": "--out", "s.json": "--stats", "t.json": "--trace"}
         for name in names:

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Tests `selftest`: what it prints and writes, and that it fails when something is wrong."""
 import shutil
+from pathlib import Path
 
 from program_case import LONG, NO_DEVICE, ProgramCase, main
 
@@ -40,8 +41,45 @@ MUTATIONS = (
     ("lit tiles that are called unlit", "equal.classified_filtered", "shadows/final_lists/classify_tile.glsl",
      "return all_harmless(f, looks, most_turns) ? kLit : kUnknown;", "return all_harmless(f, looks, most_turns) ? kUnlit : kUnknown;"),
     ("lost visibilities", "equal.deferred_monolithic", "shadows/final_lists/generate.glsl",
-     "return (steps < kMostSteps ? kSomeSeeLess : 0u) | (steps > 0u ? kSomeSeeAny : 0u);", "return kSomeSeeAny;"),
+     "return (steps < kMostSteps ? kSomeSeeLess : 0u) | (steps > 0u ? kSomeSeeAny : 0u);", "return kSomeSeeAny;"),    ("a swapped sort", "kernel.radix_sort", "render/sort/scatter_runs.comp.glsl",
+     "kImpliedValues != 0u ? at + j :", "kImpliedValues != 0u ? (at + j) ^ 1u :"),
+    ("a lost joint", "kernel.skinned_positions", "render/deform.comp.glsl",
+     "for (int i = 0; i < 4; ++i) {", "for (int i = 0; i < 3; ++i) {"),
+    ("normals that mirrors turn inside out", "kernel.skinned_normals", "render/deform.comp.glsl",
+     "dot(row0.xyz, c0) < 0.0 ? -1.0 : 1.0", "1.0"),
+    ("another exponent of sRGB", "kernel.srgb", "common/math.glsl", "vec3(1.0 / 2.4)", "vec3(1.0 / 2.3)"),
+    ("narrower penumbrae", "kernel.shadow_filter", "shadows/filter/blocker_search.glsl",
+     "return clamp(p.scale * (blocker - p.depth)", "return clamp(0.7 * p.scale * (blocker - p.depth)"),
+    ("a bias in place of the plane", "kernel.shadow_filter", "shadows/filter/space.glsl",
+     "p.depth + (toward ? bias + rounding : -bias)", "0.9 * p.depth"),
+    ("planes with flatter slopes", "kernel.planes", "shadows/maps/planes.comp.glsl", "moments / 336.0", "moments / 337.0"),
+    ("a pattern that repeats in all rows", "kernel.dither", "lighting/dither_api.glsl",
+     "pixel.y * 2447445414u", "pixel.x * 2447445414u"),
+    ("a dilation that ends a texel early", "kernel.dilation", "reflections/passes/dilate_tiles.comp.glsl",
+     "roughness > 0.0 && offset <= blur_reach", "roughness > 0.0 && offset < blur_reach"),
+    ("a Gaussian of another width", "kernel.glossy_blur", "reflections/passes/blur_tiles.comp.glsl",
+     "falloff = -0.72134752", "falloff = -0.8"),
+    ("distances that are rounded down", "kernel.hit_distances", "reflections/hit_distance_api.glsl",
+     "kMostHitCentimetres) + 0.5)", "kMostHitCentimetres))"),
+    ("halved gravity", "kernel.blades", "grass/simulation/solver.glsl", "vec3(0.0, -9.81, 0.0)", "vec3(0.0, -4.905, 0.0)"),
+    ("turbulence of another order", "kernel.particles", "particles/simulation/motion_api.glsl",
+     "0.5 * past / e.swirl_step_s", "past / e.swirl_step_s"),
+    ("a wider Gaussian", "kernel.lens_blur", "depth_of_field/blur/kernel.glsl", "exp2(-4.3280851", "exp2(-4.0"),
+    ("a lens that loses light", "kernel.bokeh_energy", "depth_of_field/blur/kernel.glsl",
+     "vec4(light.rgb, own_alpha);", "vec4(0.99 * light.rgb, own_alpha);"),
+    ("a hexagon with unequal sides", "kernel.bokeh_shape", "depth_of_field/blur/kernel.glsl",
+     "const float kSlanted = 0.88;", "const float kSlanted = 0.78;"),
 )
+
+# Mutations that each test run tries; the others compile many shaders, or draw many pictures.
+COSTLY_KERNELS = ("kernel.srgb", "kernel.shadow_filter")
+CHEAP = {what for what, name, *_ in MUTATIONS if name.startswith("kernel.") and name not in COSTLY_KERNELS} | {
+    what for what, *_ in MUTATIONS[:3]}
+
+# lavapipe rounds numbers beyond half floats to the greatest one, SwiftShader to infinity.
+BEYOND_HALVES = ("finite.glare", "lighting/opaque/deferred.glsl",
+                 "out_light = vec4(min(light, vec3(65504.0)), 1.0);", "out_light = vec4(light, 1.0);")
+SECOND_DRIVER = Path("/usr/lib/chromium/vk_swiftshader_icd.json")
 
 
 class Selftest(ProgramCase):
@@ -53,6 +91,7 @@ class Selftest(ProgramCase):
         for name in ("lists.missing_lights", "traced.lamp", "equal.twice", "moved.lawn", "scaled.fog", "exposure", "finite"):
             self.assertIn(name, listed)
 
+    # Hard case: selftest.validity
     def test_the_page_of_limits_has_the_promised_ranges(self):
         table = self.expect(0, "selftest", "--list", "--markdown").stdout
         self.assertIn("| `moved.lamp` |", table)
@@ -65,6 +104,8 @@ class Selftest(ProgramCase):
     def test_without_a_device_there_is_a_sentence(self):
         self.expect(NO_DEVICE, "selftest", "--only", "exposure", env=NO_DRIVERS)
 
+    # Hard case: selftest.light_lists, selftest.filter, selftest.blades, selftest.tone_curve, selftest.slope
+    # Hard case: selftest.exposure, selftest.finite
     def test_the_quick_test_holds_and_writes_both_files(self):
         self.require_device()
         said = self.expect(0, "selftest", "--quick", "--out", "report").stdout
@@ -83,6 +124,7 @@ class Selftest(ProgramCase):
         self.assertIn("Everything holds", page)
         self.assertNotIn("http", page)
 
+    # Hard case: program.selftest_fails
     def test_what_is_worse_is_caught_by_name(self):
         self.require_device()
         for name, settings in WORSE.items():
@@ -95,21 +137,37 @@ class Selftest(ProgramCase):
                 self.assertEqual((check["id"], check["holds"]), (name, False))
                 self.assertTrue(check["advice"])
 
+    # Hard case: program.selftest_fails, selftest.finite
     def test_mutated_kernels_are_caught_by_name(self):
         self.require_device()
         for index, (what, name, file, old, new) in enumerate(MUTATIONS):
-            if not LONG and index >= 3:
+            if not LONG and what not in CHEAP:
                 continue
             with self.subTest(mutation=what):
-                tree = self.folder / f"tree{index}"
-                shutil.copytree(self.source.resolve() / "shaders", tree / "shaders")
-                path = tree / "shaders" / file
-                text = path.read_text()
-                self.assertEqual(text.count(old), 1, f"{file} has changed: mutate it in another way")
-                path.write_text(text.replace(old, new))
+                tree = self.mutated(f"tree{index}", file, old, new)
                 ran = self.expect(1, "selftest", "--only", name, "--shaders", tree)
                 self.assertIn("FAILED", ran.stdout)
                 self.assertIn(name, ran.stdout)
+
+    def mutated(self, name, file, old, new):
+        """A tree of shaders with one change."""
+        tree = self.folder / name
+        shutil.copytree(self.source.resolve() / "shaders", tree / "shaders")
+        path = tree / "shaders" / file
+        text = path.read_text()
+        self.assertEqual(text.count(old), 1, f"{file} has changed: mutate it in another way")
+        path.write_text(text.replace(old, new))
+        return tree
+
+    def test_light_beyond_half_floats_is_caught(self):
+        if not SECOND_DRIVER.is_file():
+            self.skipTest("there is no SwiftShader")
+        name, file, old, new = BEYOND_HALVES
+        on_second = {"env": {"VK_ADD_DRIVER_FILES": str(SECOND_DRIVER)}}
+        options = ("selftest", "--device", "swiftshader", "--only", name)
+        self.expect(0, *options, **on_second)
+        tree = self.mutated("halves", file, old, new)
+        self.assertIn("FAILED", self.expect(1, *options, "--shaders", tree, **on_second).stdout)
 
     def test_an_unchanged_tree_of_shaders_changes_nothing(self):
         self.require_device()

@@ -12,6 +12,7 @@ NO_VULKAN = {"VK_ICD_FILENAMES": "/nonexistent", "VK_DRIVER_FILES": "/nonexisten
 
 
 class Usage(ProgramCase):
+    # Hard case: program.alone
     def test_alone_it_prints_its_help_and_leaves_with_2(self):
         run = self.expect(2)
         for command in ("play", "render", "inspect", "bake", "cost", "bench", "scenes", "knobs"):
@@ -22,6 +23,7 @@ class Usage(ProgramCase):
         self.assertIn("--stats", self.expect(0, "render", "--help").stdout)
         self.assertRegex(self.expect(0, "--version").stdout, r"^gloam \d+\.\d+\.\d+\n$")
 
+    # Hard case: program.wrong_usage
     def test_wrong_usage_is_2(self):
         for arguments in (["dance"], ["render"], ["--no-such"], ["render", "builtin:plain", "--no-such"],
                           ["render", "builtin:nothing"], ["inspect", "builtin:nothing"],
@@ -49,6 +51,7 @@ class Usage(ProgramCase):
             run = self.expect(status, *arguments, env=NO_VULKAN)
             self.assertIn(f"did you mean {meant}?", run.stderr)
 
+    # Hard case: program.bad_scene
     def test_a_bad_scene_is_3(self):
         (self.folder / "broken.gltf").write_text("{ this is no scene")
         (self.folder / "empty.glb").write_bytes(b"")
@@ -64,6 +67,7 @@ class Usage(ProgramCase):
     def test_a_ledger_needs_a_budget(self):
         self.expect(2, "render", "builtin:plain", "--ledger", "8", says="--ledger needs --budget", env=NO_VULKAN)
 
+    # Hard case: program.no_device
     def test_without_vulkan_only_drawing_fails(self):
         self.expect(NO_DEVICE, "render", "builtin:plain", env=NO_VULKAN)
         self.expect(NO_DEVICE, "cost", "builtin:plain", "--out", "ledger", env=NO_VULKAN)
@@ -73,6 +77,7 @@ class Usage(ProgramCase):
         self.expect(0, "bench", "--list", env=NO_VULKAN)
         self.expect(0, "bench", "jobs.fork_join", env=NO_VULKAN)
 
+    # Hard case: program.no_display
     def test_play_without_a_display_is_1(self):
         self.expect(1, "play", env={"DISPLAY": "", "WAYLAND_DISPLAY": ""}, says="display")
 
@@ -103,6 +108,7 @@ class Usage(ProgramCase):
         for line in lines:
             self.assertGreater(len(line.split()), 3)
 
+    # Hard case: program.full_disk
     def test_a_full_disk_is_1(self):
         if not os.path.exists("/dev/full"):
             self.skipTest("there is no /dev/full")
@@ -111,6 +117,7 @@ class Usage(ProgramCase):
         self.assertEqual(run.returncode, 1)
         self.assertRegex(run.stderr, r"^gloam: error: [^\n]+\n$")
 
+    # Hard case: program.closed_stream
     def test_it_runs_with_all_streams_closed(self):
         run = subprocess.run(["sh", "-c", '"$0" inspect builtin:plain <&- 2>&- | grep -c ^cameras', self.program],
                              stdout=subprocess.PIPE, text=True, check=False)

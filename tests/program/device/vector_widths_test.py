@@ -30,11 +30,13 @@ class VectorWidths(ProgramCase):
         if run.returncode == NO_DEVICE:
             self.skipTest(run.stderr.strip())
 
+    # Hard case: passes.vector_width, selftest.widths
     def test_scenes_look_the_same_at_128_as_at_256(self):
         for scene in ("many_lights", "shadows", "closeups"):
             # 256 first: its compiled shaders must not be taken for those of 128.
             self.assertEqual(self.render(scene, "256"), self.render(scene, "128"), scene)
 
+    # Hard case: grass.subgroups
     def test_grass_that_wind_has_moved_has_the_same_bits_at_128_as_at_256(self):
         options = ("--camera", "near", "--frames", "8", "--set", "grass.density_scale=0.05")
         moved = self.render("meadow_day", "256", *options, ending="exr")

@@ -40,6 +40,7 @@ class HardInput(ProgramCase):
         peak = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss * 1024  # of the largest run so far
         self.assertLess(peak, MEMORY, name)
 
+    # Hard case: scene.gigantic_count
     def test_joints_of_many_skins_that_wrap_32_bits(self):
         scene = copy.deepcopy(TRIANGLE)
         data = base64.b64decode(scene["buffers"][0]["uri"].split(",")[1]) + bytes(12) + struct.pack("<4f", 1, 0, 0, 0) * 3
@@ -71,6 +72,7 @@ class HardInput(ProgramCase):
         scene["nodes"] += [{"extras": {"gloam.ibr_proxy.size": [1, 1]}}] * 2049
         self.refused(self.write("proxies.gltf", every_node(scene)), "the scene has 2049 reflection proxies")
 
+    # Hard case: scene.cycle, scene.path_leaves, scene.gigantic_count
     def test_a_node_cycle_a_gigantic_count_and_a_path_that_leaves(self):
         cycle = copy.deepcopy(TRIANGLE)
         cycle["nodes"] = [{"children": [1]}, {"children": [0]}]
@@ -82,6 +84,7 @@ class HardInput(ProgramCase):
         leaves["buffers"][0]["uri"] = "../../etc/passwd"
         self.refused(self.write("leaves.gltf", leaves), "leaves the scene's folder")
 
+    # Hard case: scene.no_image
     def test_a_picture_that_is_none_and_a_folder_in_the_place_of_a_file(self):
         (self.folder / "fake.png").write_text("not a picture")
         (self.folder / "folder.png").mkdir()

@@ -188,6 +188,7 @@ class LegalNumbers(ProgramCase):
         scene.camera(translation=[0, 0, 2])
         return self.render(scene, "--set", "shadows.mode=off")
 
+    # Hard case: shadows.without_range
     def test_a_lamp_without_a_range_has_no_end_that_can_be_seen(self):
         for distance in (12.4, 100.0):
             self.assertGreater(self.mean(self.lamp_picture(distance, None)), 10, distance)
@@ -195,12 +196,14 @@ class LegalNumbers(ProgramCase):
             shown = (self.middle(self.lamp_picture(distance, math.log2(lux) - 2)) / 255 + 0.055) / 1.055
             self.assertAlmostEqual(shown**2.4, 0.5 / math.pi * 4 / 1.2, delta=0.02)
 
+    # Hard case: selftest.range
     def test_the_window_of_a_range_is_that_of_the_extension(self):
         for share in (0.3, 0.7, 0.9, 0.99):
             window = 1 - share**4
             shown = (self.middle(self.lamp_picture(4.0, math.log2(window / 16) - 2, range=4 / share)) / 255 + 0.055) / 1.055
             self.assertAlmostEqual(shown**2.4, 0.5 / math.pi * 4 / 1.2, delta=0.02, msg=share)
 
+    # Hard case: scene.largest_range, selftest.range, further.denormals
     def test_any_range_that_is_a_float_is_drawn(self):
         endless = self.lamp_picture(4.0, -4)
         for range_m in (3.4e38, 3.4028234663852886e38, 1e20):
@@ -225,6 +228,7 @@ class LegalNumbers(ProgramCase):
         self.assertGreater(self.middle(plain), 100)
         self.assertEqual(plain.rgb[0], 0)
 
+    # Hard case: scene.sky_zero
     def test_a_sky_of_zero_is_black(self):
         scene = GltfScene(exposure=3)
         scene.node(mesh=scene.card(scene.material()))

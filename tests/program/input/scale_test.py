@@ -10,7 +10,7 @@ from scene_file import SceneFile, turned
 from window_case import read_png
 
 SCALES = (0.001, 0.01, 100.0, 1000.0) if LONG else (0.001, 1000.0)
-PLACES = (10.0, 1e3, 1e6) if LONG else (1e6,)  # metres from the origin
+PLACES = (10.0, 1e3, 1e5, 1e6) if LONG else (1e5, 1e6)  # metres from the origin
 
 
 def with_things(**keys):
@@ -161,41 +161,53 @@ class Scale(ProgramCase):
                 pixels = [max(abs(a - b) for a, b in zip(first.rgb[i:i + 3], other.rgb[i:i + 3])) for i in range(0, len(first.rgb), 3)]
                 self.assertLessEqual(sum(step > 25 for step in pixels) / len(pixels), 0.001, f"mean {sum(pixels) / len(pixels)}")
 
+    # Hard case: selftest.moved, selftest.scaled, further.at_100_km, further.at_1000_km
     def test_lamp(self):
         self.same(lamp)
 
+    # Hard case: selftest.moved, further.at_100_km, further.at_1000_km
     def test_lamp_without_range(self):
         self.same(lamp_without_range)
 
+    # Hard case: selftest.moved, selftest.scaled, further.at_100_km, further.at_1000_km
     def test_spot(self):
         self.same(spot)
 
+    # Hard case: selftest.moved, selftest.scaled, further.at_100_km, further.at_1000_km
     def test_sun(self):
         self.same(sun)
 
+    # Hard case: selftest.moved, selftest.scaled, further.at_100_km, further.at_1000_km
     def test_closeups(self):
         self.same(closeup)
 
+    # Hard case: selftest.moved, selftest.scaled, further.at_100_km, further.at_1000_km
     def test_physics(self):
         # Fog, lenses and candela are physics: gloam.scale says how large a unit is, and their keys stay as they are.
         for make in (fog, lens):
             self.same(make, physics=True)
 
+    # Hard case: selftest.moved, selftest.scaled, further.at_100_km, further.at_1000_km
     def test_mirrors(self):
         self.same(puddle)
 
+    # Hard case: selftest.moved, further.at_100_km, further.at_1000_km
     def test_planar_mirrors(self):
         self.same(puddle, "--set", "reflections.mode=planar", physics=True)
 
+    # Hard case: selftest.moved, selftest.scaled, further.at_100_km, further.at_1000_km
     def test_proxies_and_probes(self):
         self.same(room, "--set", "reflections.tiers=ibr+cube", physics=True)
 
+    # Hard case: selftest.moved, further.at_100_km, further.at_1000_km
     def test_blended_surfaces(self):
         self.same(glass)
 
+    # Hard case: selftest.moved, selftest.scaled, further.at_100_km, further.at_1000_km
     def test_particles(self):
         self.same(smoke, "--time", "3", physics=True)
 
+    # Hard case: selftest.moved, selftest.scaled, further.at_100_km, further.at_1000_km
     def test_grass(self):
         self.same(lawn, "--frames", "20", physics=True)
 
@@ -216,6 +228,7 @@ class Scale(ProgramCase):
     def test_the_reference_of_shadows(self):
         self.same(lamp, "--view", "shadow_reference:key", scales=(0.001, 1000.0))
 
+    # Hard case: further.huge_triangle
     def test_the_sun_over_ground_of_any_width(self):
         first, rows = self.picture("first", sun()), 60  # the ground of all fills the last rows
         for half in (50.0, 1e3, 5e3, 1e5, 1e7, 1e9) if LONG else (1e3, 5e3, 1e9):
@@ -273,6 +286,7 @@ class Scale(ProgramCase):
                 with self.subTest(angle=angle, half=half):
                     self.same_ground(first, self.picture_of_ground("wide", sun(), half, change=turned_about(axis, angle)))
 
+    # Hard case: selftest.depth_range
     def test_near_planes(self):
         for kind in ("perspective", "orthographic"):
             def with_near(near, kind=kind):

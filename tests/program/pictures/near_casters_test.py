@@ -86,6 +86,7 @@ class NearCasters(ProgramCase):
                     scene = scene_with_plate(distance, kind, extras={"gloam.light.width": width})
                     self.assertLess(self.wrong_share("wide", scene), 0.02)
 
+    # Hard case: selftest.range
     def test_short_ranges(self):
         for scale in (0.01, 0.001):  # the whole scene fits into the 5 cm before a lamp
             with self.subTest(scale=scale):

@@ -49,6 +49,7 @@ class Render(ProgramCase):
         self.assertIn("out/plain.png", run.stdout)
         self.assertTrue(self.bytes_of("out/plain.png").startswith(b"\x89PNG"))
 
+    # Hard case: program.same_twice, selftest.twice
     def test_the_same_twice_to_the_bit(self):
         for scene in ("plain", "shadows"):
             for name in ("a", "b"):
@@ -56,6 +57,7 @@ class Render(ProgramCase):
                             "--out", f"{name}.png")
             self.assertEqual(self.bytes_of("a.png"), self.bytes_of("b.png"), scene)
 
+    # Hard case: selftest.threads
     def test_threads_do_not_change_the_picture(self):
         for threads in ("1", "4"):
             self.expect(0, "render", "builtin:shadows", *SMALL, "--threads", threads, "--out", f"{threads}.png")
@@ -71,6 +73,7 @@ class Render(ProgramCase):
         self.expect(0, "render", "builtin:plain", *SMALL, "--out", "deep/light.exr")
         self.assertTrue(self.bytes_of("deep/light.exr").startswith(b"\x76\x2f\x31\x01"))
 
+    # Hard case: program.nan_pixels
     def test_stats_hold_the_schema(self):
         self.expect(0, "render", "builtin:lanterns", *SMALL, *NO_SHADOWS, "--frames", "3", "--stats", "stats.json", "--quiet")
         stats = self.read_json("stats.json")
@@ -146,6 +149,7 @@ class Render(ProgramCase):
                 else:
                     self.assertGreater(gaps, 0.0, "barriers take no time")
 
+    # Hard case: passes.two_in_flight, selftest.in_flight
     def test_frames_in_flight_do_not_change_the_picture(self):
         for in_flight in ("1", "2"):
             self.expect(0, "render", "builtin:shadows", *SMALL, "--frames", "5", "--in-flight", in_flight, "--out",
@@ -231,12 +235,14 @@ class Render(ProgramCase):
         self.assertGreater(second, 1.5 * first, "the lamp is nearer")
         self.assertGreater(second, 1.2 * alone, "by itself the frame is exposed for its own light")
 
+    # Hard case: program.wrong_usage
     def test_unknown_knobs_views_and_cameras_are_wrong_usage(self):
         (self.folder / "bad.json").write_text('{"no.such": 1}')
         for option in (("--set", "no.such=1"), ("--view", "no_such"), ("--camera", "nobody"), ("--config", "absent.json"),
                        ("--config", "bad.json"), ("--animation", "walk")):
             self.expect(2, "render", "builtin:plain", *SMALL, *option)
 
+    # Hard case: program.no_device
     def test_no_such_device_is_4(self):
         self.expect(4, "render", "builtin:plain", "--device", "no such device")
 

@@ -4,6 +4,7 @@
 Vulkan and Xvfb."""
 import math
 import shutil
+import signal
 import sys
 
 import virtual_display
@@ -62,6 +63,18 @@ class Play(WindowCase):
         for scene in ("builtin:shadows", "builtin:lanterns"):
             most, _ = self.photograph(scene, 1).differences(self.rendered(scene, "192x108"))
             self.assertLessEqual(most, 1, f"{scene}: the shader and the hardware may round a code apart")
+
+    # Hard case: program.interrupted
+    def test_signals_end_it_with_the_codes_of_the_shell(self):
+        for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
+            with self.subTest(signal=number.name):
+                run = self.start("builtin:plain", "--size", "160x90", script="wait 3\nsay drawn\nwait 100000\n")
+                run.wait_said("drawn")
+                run.program.send_signal(number)
+                run.program.communicate(timeout=60)
+                # A shell has 128 + N for a program that signal N ends.
+                self.assertIn(run.program.returncode, (code, 128 - code))
+                (self.folder / "drawn").unlink()
 
     def test_a_run_of_some_frames_tells_its_rate(self):
         run = self.expect(0, "play", "builtin:plain", "--size", "160x90", "--scale", "0.5", "--frames", "4", prefix=PREFIX)

@@ -215,6 +215,7 @@ struct Misuse {
   std::function<void(FrameBuilder&, ComputePass&)> spoil;
 };
 
+// Hard case: passes.wrong_binding
 TEST_F(DeclaredPass, misuse_asserts_with_pass_shader_and_binding) {
   const Misuse misuses[] = {
       {"pass 'tested', shader 'gpu_test/double_numbers.comp', binding 'sauce': the shader declares no binding",

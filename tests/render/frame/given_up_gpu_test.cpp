@@ -179,6 +179,7 @@ std::vector<ShownViews> GivenUp::undisturbed_;
 INSTANTIATE_TEST_SUITE_P(At, GivenUp, ::testing::ValuesIn(fail_places()),
                          [](const auto& param) { return param.param.name; });
 
+// Hard case: passes.error_in_frame
 TEST_P(GivenUp, the_next_frame_is_that_of_an_undisturbed_renderer) {
   for (const auto& executor : {make_serial_executor(), make_shuffled_executor(3), make_pool_executor(3)}) {
     FailingSet set(*device_, *executor);

@@ -116,6 +116,7 @@ TEST_F(TemporalOnGpu, a_mean_over_frames_converges_on_the_means_of_noise) {
   expect_mean(63, 64);
 }
 
+// Hard case: passes.history_cut
 TEST_F(TemporalOnGpu, a_camera_cut_restarts_the_mean) {
   draw_frames(3);
   ViewRequest cut = request();
@@ -130,6 +131,7 @@ TEST_F(TemporalOnGpu, a_camera_cut_restarts_the_mean) {
   expect_mean(7, 2);
 }
 
+// Hard case: passes.history_resize
 TEST_F(TemporalOnGpu, a_resize_restarts_the_mean) {
   draw_frames(3);
   draw_frames(2, {request(0, 33)});
@@ -138,6 +140,7 @@ TEST_F(TemporalOnGpu, a_resize_restarts_the_mean) {
   EXPECT_EQ(width_, 33u);
 }
 
+// Hard case: passes.history_given_up
 TEST_F(TemporalOnGpu, a_frame_that_is_given_up_is_as_if_it_had_not_been) {
   draw_frames(3);
   give_up();
@@ -166,6 +169,7 @@ TEST_F(TemporalOnGpu, reading_an_image_back_is_no_frame) {
   }
 }
 
+// Hard case: passes.history_gap
 TEST_F(TemporalOnGpu, views_of_a_world_have_means_of_their_own_and_gaps_restart_them) {
   draw_frames(3, {request(0), request(1, 33)});
   expect_mean(2, 3, 0);

@@ -273,6 +273,7 @@ TEST_F(ViewMisuse, scales_of_no_sense) {
   expect_assert(view, "view 3: LensPoint::focus_m");
 }
 
+// Hard case: further.size_largest
 TEST_F(ViewMisuse, a_view_that_is_too_large_is_an_error) {
   EXPECT_THAT(stage_.error_of(CarelessHost::request(3, 64, 1u << 20)),
               HasSubstr("view 3 is 64x1048576 pixels: a view has at most 16384 a side"));

@@ -248,6 +248,7 @@ TEST_F(DemandFrames, what_is_out_of_view_runs_its_systems_but_adds_no_passes) {
   EXPECT_EQ(world_->resource<test::CountedRuns>().view, 5u);
 }
 
+// Hard case: program.counters
 TEST_F(DemandFrames, counters_are_those_of_modules_that_took_part_in_the_last_view) {
   const Entity counted = call_for("counting");
   static_cast<void>(call_for("lights"));

@@ -119,6 +119,7 @@ TEST_F(MemoryBack, a_released_world_returns_all) {
   EXPECT_EQ(bytes_now(), before);
 }
 
+// Hard case: passes.release_view
 TEST_F(MemoryBack, a_released_view_returns_all_but_the_data_of_its_world) {
   Renderer& renderer = *stage_->renderer;
   const Entity camera = fill_with_every_effect(stage_->world);

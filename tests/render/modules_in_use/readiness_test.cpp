@@ -123,6 +123,7 @@ TEST_F(ReadinessFrames, a_module_waits_for_the_last_of_its_pipelines) {
   EXPECT_EQ(seen("fog").passes, 4u);
 }
 
+// Hard case: passes.knob_compiling
 TEST_F(ReadinessFrames, a_knob_waits_for_its_pipelines_and_the_old_variant_stays) {
   gate_->open();
   static_cast<void>(call_for("fog"));

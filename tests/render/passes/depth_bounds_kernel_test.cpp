@@ -87,6 +87,7 @@ TEST_F(DepthBoundsKernel, a_tile_of_sky_alone_is_one_and_zero) {
   EXPECT_EQ(bounds_on_the_cpu(depths)[0], vec2(1.0f, 0.0f));
 }
 
+// Hard case: further.depth_1
 TEST_F(DepthBoundsKernel, the_extremes_of_depth_count) {
   Depths depths = depths_of(8, 8, 1.0f);
   expect_the_same(depths);

@@ -249,6 +249,7 @@ TEST_F(Geometry, orthographic_cameras_see_faces_and_depths_as_they_are) {
   EXPECT_NEAR(p.depth_m, 2.0 + (x - 3.0) * 0.75, 1e-3);
 }
 
+// Hard case: selftest.skinning
 TEST_F(Geometry, a_skinned_bar_bends_as_its_twin) {
   const dmat4 lower = at(0, -2, -7);
   const dmat4 upper = at(0, 0, -7) * turned(0.8, dvec3(0, 0, 1)) * turned(0.3, dvec3(0, 1, 0));

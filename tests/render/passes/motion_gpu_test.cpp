@@ -169,6 +169,7 @@ class SkinnedMotion : public Motion {
   Entity bar_;
 };
 
+// Hard case: passes.motion_skinned
 TEST_F(SkinnedMotion, follows_the_joints_of_both_frames) {
   draw(stage->settings);
   pose(lower_now, upper_now);
@@ -186,6 +187,7 @@ TEST_F(SkinnedMotion, is_known_of_vertices_that_the_previous_frame_culled) {
                 before);
 }
 
+// Hard case: passes.motion_new
 TEST_F(SkinnedMotion, of_a_bar_that_appears_is_that_of_the_camera) {
   draw(stage->settings);
   pose(lower_now, upper_now);
@@ -216,6 +218,7 @@ TEST_F(Motion, of_a_morphed_surface_follows_its_weights) {
   expect_motion({corners(0.75), corners(0.25)}, stage->settings, stage->settings);
 }
 
+// Hard case: passes.motion_new
 TEST_F(Motion, of_an_object_begins_in_its_second_frame) {
   const Primitive box = test::box(vec3(1.5f));
   const std::uint32_t mesh = stage->scene.mesh(box);

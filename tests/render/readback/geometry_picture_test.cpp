@@ -47,6 +47,7 @@ TEST(GeometryPicture, positions_lie_where_the_matrix_has_put_them) {
   }
 }
 
+// Hard case: further.depth_0
 TEST(GeometryPicture, texels_decode_and_zero_depth_is_sky) {
   GeometryPicture picture;
   picture.depth = {0.0f, 0.5f};

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/render/kernel_check/engine_checks.h"
+#include "engine/render/reference/sorted_twin.h"
 #include "engine/render/sort/radix_sort.h"
 #include "shaders/render/shaders.h"
 #include "shaders/render/sort/sort_shared.h"
@@ -24,35 +26,6 @@ constexpr std::uint32_t kSizes[] = {0,   1,   3,    4,    5,    15,   16,    17,
 
 using Keys = std::vector<std::uint8_t>;
 using Words = std::vector<std::uint32_t>;
-
-/// The expected result of the sort, from std::stable_sort.
-struct Expected {
-  Words values;
-  Keys keys;
-  Words bins;
-};
-
-Expected sorted_by_std(const Keys& keys, const Words& values) {
-  Words order(keys.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return keys[a] < keys[b]; });
-  Expected expected;
-  for (const std::uint32_t i : order) {
-    expected.values.push_back(values.empty() ? i : values[i]);
-    expected.keys.push_back(keys[i]);
-  }
-  expected.bins.assign(GLOAM_SORT_BINS + 1, 0);
-  for (const std::uint8_t key : keys) ++expected.bins[key + 1u];
-  std::partial_sum(expected.bins.begin(), expected.bins.end(), expected.bins.begin());
-  return expected;
-}
-
-/// The bytes of a buffer of packed keys. What follows the last key must not matter.
-Keys packed(const Keys& keys) {
-  Keys bytes(packed_key_bytes(static_cast<std::uint32_t>(keys.size())), 0x5A);
-  std::copy(keys.begin(), keys.end(), bytes.begin());
-  return bytes;
-}
 
 Keys random_keys(std::uint32_t count, std::uint32_t seed = 1) {
   std::mt19937 random(seed);
@@ -88,14 +61,14 @@ class RadixSort : public ::testing::TestWithParam<bool> {
     const auto count = static_cast<std::uint32_t>(keys.size());
     test::ReadPassFrames frames(*device());
     frames.draw([&](FrameBuilder& frame) {
-      const BufferRef given_keys = count == 0 ? BufferRef{} : frames.input("keys", packed(keys));
+      const BufferRef given_keys = count == 0 ? BufferRef{} : frames.input("keys", packed_keys(keys));
       const BufferRef given_values = values.empty() ? BufferRef{} : frames.input("values", values);
       const SortedKeys sorted = add_radix_sort_passes(frame, "tested", given_keys, given_values, count);
       if (count > 0) frames.keep(frame, "values", sorted.values, std::uint64_t{count} * 4);
       if (count > 0) frames.keep(frame, "keys", sorted.keys, packed_key_bytes(count));
       frames.keep(frame, "bins", sorted.bins, (GLOAM_SORT_BINS + 1) * 4);
     });
-    const Expected expected = sorted_by_std(keys, values);
+    const SortedTwin expected = sorted_twin(keys, values);
     EXPECT_EQ(frames.read<std::uint32_t>("bins"), expected.bins);
     if (count == 0) return;
     EXPECT_TRUE(frames.read<std::uint32_t>("values") == expected.values);
@@ -113,6 +86,7 @@ class RadixSort : public ::testing::TestWithParam<bool> {
   std::uint64_t messages_ = 0;
 };
 
+// Hard case: selftest.sort
 TEST_P(RadixSort, sorts_random_keys_of_every_size) {
   for (const std::uint32_t count : kSizes) {
     SCOPED_TRACE(count);
@@ -161,13 +135,13 @@ TEST_P(RadixSort, two_sorts_of_a_frame_do_not_mix) {
   const Keys first = random_keys(5000, 5), second = random_keys(3000, 6);
   test::ReadPassFrames frames(*device());
   frames.draw([&](FrameBuilder& frame) {
-    const SortedKeys a = add_radix_sort_passes(frame, "a", frames.input("first", packed(first)), {}, 5000);
-    const SortedKeys b = add_radix_sort_passes(frame, "b", frames.input("second", packed(second)), {}, 3000);
+    const SortedKeys a = add_radix_sort_passes(frame, "a", frames.input("first", packed_keys(first)), {}, 5000);
+    const SortedKeys b = add_radix_sort_passes(frame, "b", frames.input("second", packed_keys(second)), {}, 3000);
     frames.keep(frame, "a", a.values, 5000 * 4);
     frames.keep(frame, "b", b.values, 3000 * 4);
   });
-  EXPECT_TRUE(frames.read<std::uint32_t>("a") == sorted_by_std(first, {}).values);
-  EXPECT_TRUE(frames.read<std::uint32_t>("b") == sorted_by_std(second, {}).values);
+  EXPECT_TRUE(frames.read<std::uint32_t>("a") == sorted_twin(first, {}).values);
+  EXPECT_TRUE(frames.read<std::uint32_t>("b") == sorted_twin(second, {}).values);
 }
 
 INSTANTIATE_TEST_SUITE_P(Kernels, RadixSort, ::testing::Values(true, false),
@@ -199,7 +173,7 @@ class SortKernel : public test::KernelTest {
     const Words expected = counted(keys, c);
     test::Kernel kernel(device(), shader);
     kernel.push(c);
-    kernel.input(0, packed(keys));
+    kernel.input(0, packed_keys(keys));
     kernel.output(1, (expected.size() + kSpare) * 4);
     kernel.run(groups);
     expect_exactly(kernel.read<std::uint32_t>(1), expected);
@@ -208,7 +182,7 @@ class SortKernel : public test::KernelTest {
   void expect_scatter(bool runs, const shaders::SortConstants& c, std::uint32_t groups) {
     const Keys keys = random_keys(kCount);
     const Words values = random_values(kCount);
-    const Expected expected = sorted_by_std(keys, values);
+    const SortedTwin expected = sorted_twin(keys, values);
     Words counters = counted(keys, c), totals;
     for (std::uint32_t bin = 0; bin < GLOAM_SORT_BINS; ++bin) {
       std::uint32_t before = 0;
@@ -219,7 +193,7 @@ class SortKernel : public test::KernelTest {
     test::Kernel kernel(device(), runs ? shaders::render::scatter_runs_comp : shaders::render::scatter_blocks_comp,
                         {{"kImpliedValues", 0u}});
     kernel.push(c);
-    kernel.input(0, packed(keys));
+    kernel.input(0, packed_keys(keys));
     kernel.input(1, counters);
     kernel.input(2, runs ? totals : expected.bins);
     kernel.input(3, values);
@@ -258,7 +232,7 @@ TEST_F(SortKernel, bins_are_the_prefix_sum_of_the_totals_and_nothing_else) {
 
 TEST_F(SortKernel, sorted_keys_end_with_the_word_of_the_last_key) {
   const Keys keys = random_keys(kCount);
-  const Expected expected = sorted_by_std(keys, {});
+  const SortedTwin expected = sorted_twin(keys, {});
   test::Kernel kernel(device(), shaders::render::write_keys_comp);
   kernel.push(kRuns);
   kernel.input(0, expected.bins);
@@ -270,6 +244,8 @@ TEST_F(SortKernel, sorted_keys_end_with_the_word_of_the_last_key) {
   std::memcpy(sorted.data(), words.data(), kCount);
   EXPECT_EQ(sorted, expected.keys);
 }
+
+TEST_F(SortKernel, holds_in_the_self_test) { expect_holds({sort_check()}); }
 
 }  // namespace
 }  // namespace gloam

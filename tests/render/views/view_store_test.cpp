@@ -111,6 +111,7 @@ TEST_F(ViewStoreTest, ids_are_checked_before_a_frame) {
   EXPECT_ASSERT(check_ids(std::vector{request(CompanionViews::kFirstId)}), "are for companions");
 }
 
+// Hard case: further.size_largest
 TEST_F(ViewStoreTest, sizes_up_to_the_limit_are_accepted) {
   EXPECT_TRUE(check_size(request(0, kMostViewPixels, 1).settings).ok());
   const Status wide = check_size(request(5, kMostViewPixels + 1, 1).settings);

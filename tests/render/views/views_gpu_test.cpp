@@ -35,6 +35,7 @@ void fill(World& world, bool fog) {
 
 class Views : public test::DrawingTest {};
 
+// Hard case: passes.cube_capture
 TEST_F(Views, a_cube_capture_equals_six_renders_to_the_bit_and_has_no_fog) {
   fill(stage->world, true);
   const std::array<ViewSettings, 6> faces = test::cube_faces(dvec3(0.3, 0.9, 0.2));
@@ -93,6 +94,7 @@ dmat4 reflection_at(const MirrorPlane& mirror) {
   return matrix;
 }
 
+// Hard case: passes.mirrored_view
 TEST_F(Views, a_mirrored_view_equals_the_mirrored_scene) {
   const MirrorPlane planes[] = {{dvec3(0.0, 1.0, 0.0), -3.0}, {glm::normalize(dvec3(0.3, 1.0, -0.2)), -4.0}};
   for (const MirrorPlane& plane : planes) {
@@ -120,6 +122,7 @@ TEST_F(Views, a_mirrored_view_equals_the_mirrored_scene) {
   }
 }
 
+// Hard case: passes.mirrored_view
 TEST_F(Views, a_mirror_shows_only_its_visible_side) {
   test::SceneMaker scene(stage->world);
   Material glowing;
@@ -192,6 +195,7 @@ std::map<std::string, std::uint64_t> memory() {
   return bytes;
 }
 
+// Hard case: passes.release_view
 TEST_F(Views, released_views_leave_no_memory_behind) {
   fill(stage->world, false);
   stage->settings = test::look_at(dvec3(3.0, 2.0, 7.0), dvec3(0.0), 64, 48);

@@ -58,6 +58,7 @@ TEST(BenchRegistry, an_unknown_name_is_wrong_usage) {
   EXPECT_EQ(fault("water"), "there is no bench 'water'; gloam bench --list names them");
 }
 
+// Hard case: program.bench_ids
 TEST(BenchRegistry, ids_are_unique) {
   BenchRegistry registry = some_rows();
   EXPECT_ASSERT(registry.add(row("jobs.empty")), "unique");

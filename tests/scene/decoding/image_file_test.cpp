@@ -55,6 +55,7 @@ TEST(ImageFile, jpeg_comes_back_nearly) {
   for (std::size_t i = 0; i < image->rgba.size(); ++i) EXPECT_NEAR(image->rgba[i], kColor[i % 4], 6);
 }
 
+// Hard case: scene.no_image
 TEST(ImageFile, other_formats_are_refused) {
   EXPECT_EQ(decode_image({}).error().message, "is not a PNG or JPEG image");
   const std::string gif = "GIF89a\1\0\1\0\0\0\0;not an image at all";

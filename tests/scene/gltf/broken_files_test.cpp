@@ -373,6 +373,8 @@ std::vector<Broken> broken_parts() {
 
 class BrokenFiles : public ::testing::TestWithParam<Broken> {};
 
+// Hard case: scene.index_out_of_range, scene.accessor_past_buffer, scene.cycle, scene.position_not_finite
+// Hard case: scene.absent_file, scene.gigantic_count, scene.required_extension
 TEST_P(BrokenFiles, are_refused_in_one_sentence_that_names_file_place_and_fault) {
   Import import;
   test::import_text(GetParam().text, import);

@@ -29,6 +29,7 @@ std::vector<std::string> model_files() {
   return files;
 }
 
+// Hard case: scene.corpus
 TEST(Corpus, every_model_loads_or_is_refused_in_one_sentence) {
   if (!fs::exists(kModels)) GTEST_SKIP() << kModels << " is absent (package assimp-testmodels)";
   const std::vector<std::string> files = model_files();
@@ -53,6 +54,7 @@ TEST(Corpus, every_model_loads_or_is_refused_in_one_sentence) {
   EXPECT_GT(loaded, 0);
 }
 
+// Hard case: scene.truncated
 TEST(Corpus, models_cut_at_every_kilobyte_load_or_are_refused) {
   if (!fs::exists(kModels)) GTEST_SKIP() << kModels << " is absent (package assimp-testmodels)";
   const test::TemporaryFolder folder;

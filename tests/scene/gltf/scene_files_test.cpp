@@ -84,6 +84,7 @@ TEST(SceneFiles, a_buffers_file_may_be_longer_than_the_buffer) {
   EXPECT_EQ(import.fault(), "");
 }
 
+// Hard case: scene.path_leaves
 TEST(SceneFiles, files_outside_the_scenes_folder_are_never_opened) {
   const TemporaryFolder folder;
   GltfText gltf;
@@ -100,6 +101,7 @@ TEST(SceneFiles, files_outside_the_scenes_folder_are_never_opened) {
   EXPECT_THAT(absolute.fault(), HasSubstr("leaves the scene's folder"));
 }
 
+// Hard case: scene.absent_file
 TEST(SceneFiles, an_absent_scene_is_an_input_error_in_one_sentence) {
   Import import;
   test::import_file("/nowhere/at/all.gltf", import);
@@ -108,6 +110,7 @@ TEST(SceneFiles, an_absent_scene_is_an_input_error_in_one_sentence) {
   EXPECT_THAT(import.fault(), HasSubstr("all.gltf: the file \"/nowhere/at/all.gltf\" is absent"));
 }
 
+// Hard case: scene.truncated
 TEST(SceneFiles, a_binary_file_cut_anywhere_is_refused) {
   const TemporaryFolder folder;
   GltfText gltf;

@@ -61,6 +61,7 @@ void expect_on_arc(const dquat& from, const dquat& to_on_short_side, double u) {
               1e-15 + 1e-9 * static_cast<double>(whole));
 }
 
+// Hard case: further.time_backwards
 TEST(Animation, time_loops_by_the_duration_forwards_and_backwards) {
   EXPECT_DOUBLE_EQ(looped_time(0.25, 2.0), 0.25);
   EXPECT_DOUBLE_EQ(looped_time(2.0, 2.0), 0.0);
@@ -178,6 +179,7 @@ TEST(Animation, wrong_sizes_assert) {
   EXPECT_ASSERT(sample_channel(channel, 0.0, out), "at least one key");
 }
 
+// Hard case: scene.same_target
 TEST(Animation, of_clips_that_move_the_same_target_the_first_plays) {
   const auto moves = [](std::uint32_t node, AnimationPath path) {
     AnimationChannel channel;

@@ -60,6 +60,7 @@ Names needs_of(const ShaderCode& shader) {
   return needs.features;
 }
 
+// Hard case: passes.features
 TEST(RequiredFeatures, of_shaders_are_exactly_those_that_their_spirv_needs) {
   Names needed;
   for (const ShaderCode* shader : every_shader()) needed.merge(needs_of(*shader));

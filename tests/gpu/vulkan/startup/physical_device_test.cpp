@@ -46,6 +46,7 @@ TEST_F(ChoosingForAWindow, takes_a_device_that_can_present_to_it) {
   EXPECT_TRUE(chosen->can_present);
 }
 
+// Hard case: passes.present
 TEST_F(ChoosingForAWindow, refuses_devices_that_cannot_present_to_it) {
   const auto chosen = choose(false);
   ASSERT_FALSE(chosen.ok());

@@ -38,6 +38,7 @@ TEST_F(FramesTest, are_numbered_from_zero_and_complete_in_order) {
   EXPECT_EQ(device().completed_frames(), 5u);
 }
 
+// Hard case: passes.two_in_flight
 TEST_F(FramesTest, two_in_flight_each_see_their_own_data) {
   const BufferHandle counter = test::make_storage(device(), 4);
   std::vector<BufferHandle> results;

@@ -9,6 +9,7 @@
 namespace gloam::gpu::vulkan {
 namespace {
 
+// Hard case: passes.timestamps
 TEST(TickClock, keeps_single_ticks_of_a_clock_that_has_run_for_years) {
   for (const std::uint64_t start : {std::uint64_t{1} << 54, (std::uint64_t{1} << 60) + 1, ~std::uint64_t{0} - 10}) {
     TickClock clock(64, 1.0);
@@ -24,6 +25,7 @@ TEST(TickClock, multiplies_by_the_period) {
   EXPECT_EQ(clock.nanoseconds((std::uint64_t{1} << 55) + 19'200'000) - first, 999'999'976u);  // a second, to a float
 }
 
+// Hard case: passes.timestamps
 TEST(TickClock, goes_on_where_the_counter_wraps_around) {
   for (const std::uint32_t bits : {36u, 40u, 64u}) {
     TickClock clock(bits, 2.0);

@@ -89,10 +89,14 @@ class CloseupPairs : public CloseupScene {
   Figure left, right;
 };
 
+// Hard case: shadows.closeup_two_in_tile, shadows.closeup_successive
 TEST_F(CloseupPairs, take_a_lamp_from_tiles_one_after_the_other) { expect_lit_partly_unlit(LightKind::point); }
+// Hard case: shadows.closeup_successive
 TEST_F(CloseupPairs, take_a_spot_from_tiles_one_after_the_other) { expect_lit_partly_unlit(LightKind::spot); }
+// Hard case: shadows.closeup_successive
 TEST_F(CloseupPairs, take_a_sun_from_tiles_one_after_the_other) { expect_lit_partly_unlit(LightKind::directional); }
 
+// Hard case: shadows.closeup_successive
 TEST_F(CloseupPairs, finish_what_the_standard_map_left) {
   const Entity lamp = put_stage(LightKind::spot);
   put_halves();
@@ -112,6 +116,7 @@ TEST_F(CloseupPairs, finish_what_the_standard_map_left) {
   EXPECT_GT(std::ranges::count(with_one.slots, GLOAM_ALL_UNLIT), 0);
 }
 
+// Hard case: shadows.closeup_two_in_tile
 TEST_F(CloseupPairs, in_another_order_give_the_same_picture) {
   put_stage(LightKind::point, 0.1f);
   put_light(spot(40.0, 0.05f), dvec3(-0.5, 3.0, 1.0), dvec3(0.2, -1.0, -0.3), 512);

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "modules/depth_of_field/reference/spot.h"
 #include "tests/modules/depth_of_field/support/dof_chain.h"
-#include "tests/modules/depth_of_field/support/spot.h"
 
 namespace gloam::test {
 namespace {
@@ -58,6 +58,7 @@ class DofBokeh : public DofChainTest {
 };
 INSTANTIATE_TEST_SUITE_P(Variants, DofBokeh, testing::Values(true));
 
+// Hard case: dof.bright_sum, selftest.bokeh
 TEST_P(DofBokeh, keeps_the_energy_of_a_bright_pixel) {
   for (const Bokeh bokeh : {Bokeh::round, Bokeh::hexagonal})
     each_setting(bokeh, [](const Setting& setting) {
@@ -66,6 +67,7 @@ TEST_P(DofBokeh, keeps_the_energy_of_a_bright_pixel) {
     });
 }
 
+// Hard case: dof.bright_spreads
 TEST_P(DofBokeh, spreads_a_bright_pixel) {
   for (const Bokeh bokeh : {Bokeh::round, Bokeh::hexagonal})
     each_setting(bokeh, [](const Setting& setting) {
@@ -75,6 +77,7 @@ TEST_P(DofBokeh, spreads_a_bright_pixel) {
     });
 }
 
+// Hard case: dof.bright_shape, selftest.bokeh
 TEST_P(DofBokeh, is_the_same_in_all_directions_if_it_is_round) {
   each_setting(Bokeh::round, [](const Setting& setting) {
     const Spot spot = draw(setting);
@@ -95,6 +98,7 @@ TEST_P(DofBokeh, is_the_same_in_all_directions_if_it_is_round) {
 }
 
 // A lamp far brighter than white shows the outline of its faint light.
+// Hard case: dof.bright_shape
 TEST_P(DofBokeh, stays_round_if_it_is_overexposed) {
   each_setting(Bokeh::round, [](const Setting& setting) {
     const Spot spot = draw(setting);
@@ -112,6 +116,7 @@ TEST_P(DofBokeh, stays_round_if_it_is_overexposed) {
   });
 }
 
+// Hard case: dof.bright_shape, selftest.bokeh
 TEST_P(DofBokeh, has_six_equal_sides_if_it_is_hexagonal) {
   each_setting(Bokeh::hexagonal, [](const Setting& setting) {
     const Spot spot = draw(setting);

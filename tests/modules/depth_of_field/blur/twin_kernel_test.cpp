@@ -9,8 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "modules/depth_of_field/reference/blur_twin.h"
+#include "modules/depth_of_field/reference/kernel_checks.h"
 #include "tests/modules/depth_of_field/support/dof_chain.h"
-#include "tests/modules/depth_of_field/support/dof_twin.h"
 
 namespace gloam::test {
 namespace {
@@ -21,7 +22,7 @@ class DofBlur : public DofChainTest {
   /// interpolate the near layer's radius with weights of few bits.
   static void expect_twin(const DofInput& in) {
     const DofResult result = run(in);
-    const std::vector<dvec4> expected = DofTwin(in).light();
+    const std::vector<dvec4> expected = dof_twin_light(in);
     ASSERT_EQ(result.light.size(), expected.size());
     double worst = 0.0;
     std::size_t place = 0;
@@ -81,11 +82,21 @@ TEST_P(DofBlur, equals_the_twin_in_a_picture_with_objects_before_and_behind_the_
   expect_twins(scene(112, 80, 1), {3.0f, 15.0f, 31.0f});
 }
 
+TEST_P(DofBlur, holds_in_the_self_test) {
+  for (const KernelCheck& check : dof_kernel_checks()) {
+    KernelLab lab(*device(), gpu_log());
+    const auto found = check.run(lab);
+    ASSERT_TRUE(found.ok()) << check.name << ": " << found.error().message;
+    EXPECT_LE(found->worst, check.bound) << check.name << ": " << found->where;
+  }
+}
+
 TEST_P(DofBlur, equals_the_twin_in_pictures_of_odd_sizes) {
   for (const auto& [width, height] : {std::pair{81u, 67u}, {33u, 1u}, {1u, 35u}, {129u, 17u}})
     expect_twins(scene(width, height, width), {7.0f, 23.0f});
 }
 
+// Hard case: dof.radius_large
 TEST_P(DofBlur, equals_the_twin_where_the_radius_exceeds_the_picture) {
   for (const float circle : {30.0f, -30.0f}) {
     DofInput in = scene(9, 7, 5);
@@ -94,6 +105,7 @@ TEST_P(DofBlur, equals_the_twin_where_the_radius_exceeds_the_picture) {
   }
 }
 
+// Hard case: dof.size_1x1
 TEST_P(DofBlur, keeps_a_picture_of_one_pixel) {
   for (const float circle : {30.0f, 0.0f, -30.0f})
     for (const Bokeh bokeh : {Bokeh::round, Bokeh::hexagonal})

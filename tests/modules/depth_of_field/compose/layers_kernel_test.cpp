@@ -192,6 +192,7 @@ TEST_P(DofLayersTest, kernels_read_no_texel_that_was_not_written) {
   }
 }
 
+// Hard case: dof.nan_light, dof.infinite_light
 TEST_P(DofLayersTest, light_that_is_not_finite_does_not_spread_and_stays_in_focus_only) {
   for (const float bad : {std::nanf(""), kInfinity, -kInfinity})
     for (const std::uint32_t side : {1u, 2u, 5u}) {

@@ -81,6 +81,7 @@ TEST(Lens, an_orthographic_circle_grows_evenly_on_both_sides_of_the_focus) {
   }
 }
 
+// Hard case: dof.f_number_infinite, dof.focus_behind
 TEST(Lens, an_aperture_without_size_or_without_a_focus_blurs_nothing) {
   const RenderView view = view_of({});
   const float nan = std::nanf("");
@@ -93,6 +94,7 @@ TEST(Lens, an_aperture_without_size_or_without_a_focus_blurs_nothing) {
   EXPECT_FALSE(lens_of({.focus_m = kInfinity, .f_number = 1e9f}, view)) << "less than half a pixel at any depth";
 }
 
+// Hard case: dof.f_number_0
 TEST(Lens, an_f_number_of_0_is_a_very_wide_and_finite_lens) {
   const RenderView view = view_of({});
   const Lens lens = *lens_of({.focus_m = 3.0f, .f_number = 0.0f}, view);
@@ -102,6 +104,7 @@ TEST(Lens, an_f_number_of_0_is_a_very_wide_and_finite_lens) {
   EXPECT_GT(lens.radius_px(0.0), 31.0);
 }
 
+// Hard case: dof.focus_infinity
 TEST(Lens, a_focus_at_infinity_keeps_the_sky_sharp) {
   Camera camera;
   const RenderView view = view_of(camera);
@@ -113,6 +116,7 @@ TEST(Lens, a_focus_at_infinity_keeps_the_sky_sharp) {
         << z;
 }
 
+// Hard case: dof.focus_near_plane
 TEST(Lens, a_focus_at_the_near_plane_or_inside_the_focal_length_is_moved_out) {
   Camera camera;
   camera.near_m = 0.2f;

@@ -184,6 +184,7 @@ TEST_F(GrassMotion, is_that_in_metres_whatever_a_unit_is) {
   }
 }
 
+// Hard case: further.dt_0
 TEST_F(GrassMotion, is_none_while_time_stands_and_in_the_first_frame) {
   GrassStage stage({.motion = true});
   blow(stage, "1:4");

@@ -68,6 +68,7 @@ TEST(Grow, density_times_area_is_the_count_within_1) {
   }
 }
 
+// Hard case: grass.blades_0
 TEST(Grow, density_0_no_mesh_and_surfaces_without_area_grow_nothing) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   for (const float density : {0.0f, -1.0f, nan, std::numeric_limits<float>::infinity()}) {
@@ -136,6 +137,7 @@ TEST(Grow, the_field_is_regrown_only_when_an_input_changes) {
   expect_regrown("one surface less");
 }
 
+// Hard case: grass.threads
 TEST(Grow, the_field_has_the_same_bits_on_every_executor_and_for_every_order_of_entities) {
   std::vector<std::uint64_t> hashes;
   for (const test::ExecutorCase& c : test::all_executors()) {
@@ -153,6 +155,7 @@ TEST(Grow, the_field_has_the_same_bits_on_every_executor_and_for_every_order_of_
   for (const std::uint64_t hash : hashes) EXPECT_EQ(hash, hashes[0]);
 }
 
+// Hard case: grass.at_100_km
 TEST(Grow, a_surface_100_km_away_grows_the_same_blades) {
   GrassWorld near;
   near.add(20.0f, glm::translate(dmat4(1.0), dvec3(3.25, 1.0, 0.5)));
@@ -167,6 +170,7 @@ TEST(Grow, a_surface_100_km_away_grows_the_same_blades) {
   }
 }
 
+// Hard case: grass.blades_1, grass.blades_3, grass.blades_4, grass.blades_5
 TEST(Grow, small_counts_and_all_settings_of_slaves_grow) {
   for (const std::uint32_t slaves : {0u, 1u, 2u, 4u, 8u, 16u, 17u, 4000000000u}) {
     for (const float count : {1.0f, 3.0f, 4.0f, 5.0f, 65.0f, 257.0f}) {
@@ -204,6 +208,7 @@ TEST(Grow, a_density_beyond_all_limits_does_not_overflow) {
   EXPECT_NEAR(w.run().statistics.blades, 500, 1);
 }
 
+// Hard case: grass.non_manifold
 TEST(Grow, faults_of_the_mesh_are_counted_and_the_rest_grows) {
   Mesh mesh = test::lawn(1, 10.0f);
   Primitive& primitive = mesh.primitives[0];
@@ -290,6 +295,7 @@ TEST(Grow, types_beyond_16_are_left_out_and_noted) {
   EXPECT_EQ(files.types_of(c), std::pair(0, 11));
 }
 
+// Hard case: grass.blades_million
 TEST(Grow, a_million_blades_are_even_and_complete) {
   GrassWorld w(
       test::lawn(200, 100.0f, [](float x, float z) { return 3.0f * std::sin(0.1f * x) * std::cos(0.08f * z); }));

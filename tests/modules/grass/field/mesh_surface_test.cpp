@@ -68,6 +68,7 @@ TEST(GrowthSurface, neighbors_share_their_edge_and_name_each_other) {
   EXPECT_GT(inner, surface.triangles.size());
 }
 
+// Hard case: grass.no_upward
 TEST(GrowthSurface, a_mesh_without_upward_triangle_is_an_empty_surface) {
   const Mesh ceiling = test::mesh_of({{0, 0, 0}, {0, 0, 1}, {1, 0, 0}}, {0, 2, 1});
   const Mesh wall = test::mesh_of({{0, 0, 0}, {0, 1, 0}, {1, 0, 0}}, {0, 1, 2});
@@ -102,6 +103,7 @@ TEST(GrowthSurface, a_mirrored_transform_keeps_the_upper_side_up) {
   }
 }
 
+// Hard case: grass.no_area
 TEST(GrowthSurface, faces_without_area_and_faces_that_are_not_finite_are_counted_and_left_out) {
   Mesh mesh = one_triangle();
   Primitive& primitive = mesh.primitives[0];
@@ -116,6 +118,7 @@ TEST(GrowthSurface, faces_without_area_and_faces_that_are_not_finite_are_counted
   EXPECT_EQ(surface.area_m2, 0.5);
 }
 
+// Hard case: grass.non_manifold
 TEST(GrowthSurface, a_third_face_on_an_edge_is_refused_and_counted) {
   const Mesh mesh =
       test::mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 0, -1}, {0, 0, 1}, {0.5f, 0.5f, 1}}, {0, 1, 2, 0, 3, 1, 0, 4, 1});

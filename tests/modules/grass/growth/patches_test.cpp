@@ -48,6 +48,7 @@ struct Patches {
   }
 };
 
+// Hard case: grass.blades_0
 TEST(Patches, any_count_of_blades_is_grouped_with_masters_first_and_empty_slots_last) {
   for (const std::uint32_t slaves : {0u, 1u, 2u, 4u, 8u, 16u}) {
     for (const std::uint32_t count : {0u, 1u, 2u, 3u, 4u, 5u, 6u, 17u, 63u, 65u, 255u, 256u, 257u, 511u, 1000u}) {
@@ -244,6 +245,7 @@ TEST(Patches, all_roots_in_one_place_are_grouped_too) {
   for (const GrassPatch& patch : p.patches) EXPECT_EQ(patch.roots.min, patch.roots.max);
 }
 
+// Hard case: selftest.threads
 TEST(Patches, the_result_has_the_same_bits_on_every_executor) {
   Patches expected(20000, 4);
   for (const test::ExecutorCase& c : test::all_executors()) {

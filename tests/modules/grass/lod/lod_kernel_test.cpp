@@ -184,6 +184,7 @@ TEST_F(GrassDetail, keys_are_the_distances_of_the_blades_that_show) {
   EXPECT_GT(std::min(drawn, culled), static_cast<std::size_t>(rounds) * 200);
 }
 
+// Hard case: grass.all_culled, grass.threshold_0, grass.threshold_most
 TEST_F(GrassDetail, live_blades_are_those_up_to_the_threshold_and_the_classes_divide_them) {
   std::mt19937 random(5);
   const int rounds = scaled(150);

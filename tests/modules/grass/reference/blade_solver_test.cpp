@@ -123,6 +123,7 @@ BladeState random_pose(const BladeModel& blade, const BladeSteps& frame, std::mt
   return state;
 }
 
+// Hard case: grass.wind_0, grass.energy
 TEST(BladeSolver, ten_thousand_steps_without_wind_gain_no_energy) {
   std::mt19937 random(1);
   for (const float stiffness : {0.0f, 0.02f, 0.1f, 0.5f, 1.0f})
@@ -187,6 +188,7 @@ TEST(BladeSolver, shorter_steps_and_more_iterations_converge) {
   EXPECT_LT(mean_error(64, 4, 64, 8), 0.5 * errors.back());
 }
 
+// Hard case: grass.threads
 TEST(BladeSolver, any_number_of_threads_gives_the_same_knots) {
   std::vector<BladeModel> blades;
   for (int i = 0; i < 333; ++i)

@@ -134,6 +134,7 @@ TEST_F(GrassColliderSystem, a_frame_at_the_same_time_repeats_the_way) {
   EXPECT_EQ(frame(0.1).at(0).from_previous, dvec3(1.0, 0.0, 0.0));
 }
 
+// Hard case: further.time_backwards
 TEST_F(GrassColliderSystem, after_a_restart_colliders_have_been_where_they_are) {
   const Entity entity = add(kSphere, dvec3(0.0));
   frame(0.1);
@@ -239,6 +240,7 @@ TEST(GrassCollidersNear, rows_are_relative_to_the_patch) {
   EXPECT_EQ(colliders_near(patch, all, rows), 0u) << "a patch without blades";
 }
 
+// Hard case: grass.collider_large
 TEST(GrassCollidersNear, a_collider_larger_than_the_patch_is_near) {
   GrassPatch patch;
   patch.roots.grow(vec3(-1.0f));

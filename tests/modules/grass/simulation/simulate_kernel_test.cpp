@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "modules/grass/reference/kernel_checks.h"
 #include "tests/modules/grass/support/simulate_kernel.h"
 
 namespace gloam::test {
@@ -25,6 +26,7 @@ class GrassSimulation : public KernelTest {
   }
 };
 
+// Hard case: selftest.blades
 TEST_F(GrassSimulation, a_step_moves_the_knots_as_the_twin_does) {
   for (const std::uint32_t iterations : {1u, 3u, 8u, 64u}) {
     SCOPED_TRACE(iterations);
@@ -56,6 +58,7 @@ TEST_F(GrassSimulation, knots_follow_the_twin_for_seconds) {
   }
 }
 
+// Hard case: grass.blades_0, grass.not_64, grass.repeatable
 TEST_F(GrassSimulation, any_number_of_masters_and_any_size_of_workgroups_gives_the_same_knots) {
   for (const std::uint32_t count : {0u, 1u, 3u, 4u, 5u, 63u, 64u, 65u, 200u}) {
     SCOPED_TRACE(count);
@@ -129,6 +132,8 @@ TEST_F(GrassSimulation, a_frame_without_steps_puts_new_masters_at_rest) {
   for (shaders::GrassMaster& m : input.masters) m.steps = 3;
   EXPECT_EQ(SimulateKernel(device()).run(input), output);
 }
+
+TEST_F(GrassSimulation, holds_in_the_self_test) { expect_holds(grass_kernel_checks()); }
 
 }  // namespace
 }  // namespace gloam::test

@@ -14,6 +14,7 @@
 namespace gloam::test {
 namespace {
 
+// Hard case: grass.dt_0, grass.dt_nan, further.denormals
 TEST(GrassSteps, no_time_and_no_number_make_no_step) {
   StepClock clock;
   for (const double dt : {0.0, -0.0, -1.0, std::numeric_limits<double>::quiet_NaN(),
@@ -25,6 +26,7 @@ TEST(GrassSteps, no_time_and_no_number_make_no_step) {
   }
 }
 
+// Hard case: grass.dt_1s, grass.dt_10s
 TEST(GrassSteps, long_frames_are_bounded_and_owe_nothing) {
   for (const double dt : {1.0, 10.0, 1e300, std::numeric_limits<double>::infinity()}) {
     StepClock clock;
@@ -38,6 +40,7 @@ TEST(GrassSteps, long_frames_are_bounded_and_owe_nothing) {
   }
 }
 
+// Hard case: grass.dt_1us
 TEST(GrassSteps, short_frames_add_up) {
   StepClock clock;
   std::uint32_t steps = 0;
@@ -60,6 +63,7 @@ TEST(GrassSteps, frames_of_whole_steps_lose_none) {
   }
 }
 
+// Hard case: selftest.frame_time
 TEST(GrassSteps, any_frame_rate_gives_as_many_steps_a_second) {
   for (const double rate : {17.0, 24.0, 59.94, 75.0, 120.0, 144.0, 1000.0}) {
     StepClock clock;
@@ -80,6 +84,33 @@ TEST(GrassSteps, the_number_wraps_without_the_value_that_means_none) {
   EXPECT_EQ(steps_between(GLOAM_GRASS_NO_STEP - 3, 9), 12u);
   clock.restart(GLOAM_GRASS_NO_STEP);
   EXPECT_EQ(clock.now(), 0u);
+}
+
+// Hard case: further.thirty_days
+TEST(GrassSteps, frames_after_thirty_days_have_the_steps_of_the_first) {
+  const auto steps_from = [](double start_s) {
+    StepClock clock;
+    std::vector<std::uint32_t> steps;
+    for (int frame = 0; frame < 600; ++frame) {
+      const double time_s = start_s + frame / 64.0;
+      clock.advance_in(static_cast<std::uint64_t>(frame) + 1, {.time_s = time_s, .dt_s = 1.0 / 64.0});
+      steps.push_back(clock.now());
+    }
+    return steps;
+  };
+  EXPECT_EQ(steps_from(30.0 * 86400.0), steps_from(0.0));
+}
+
+// Hard case: further.time_backwards
+TEST(GrassSteps, time_that_runs_backwards_starts_again_in_each_frame) {
+  StepClock clock;
+  clock.advance_in(1, {.time_s = 9.0, .dt_s = 1.0 / 60.0});
+  std::uint32_t restarts = clock.restarts();
+  for (std::uint64_t frame = 2; frame < 50; ++frame) {
+    clock.advance_in(frame, {.time_s = 9.0 - 0.1 * static_cast<double>(frame), .dt_s = 1.0 / 60.0});
+    EXPECT_EQ(clock.restarts(), ++restarts) << frame;
+    EXPECT_LE(clock.now(), kMostGrassSteps) << frame;
+  }
 }
 
 TEST(GrassSteps, a_frame_at_the_time_of_the_last_one_has_its_steps) {

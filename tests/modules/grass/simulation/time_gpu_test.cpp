@@ -57,6 +57,7 @@ TEST_F(GrassTime, frames_at_the_time_of_the_last_one_show_the_same) {
   EXPECT_GT(differences(frames[2].light, frames[3].light), 100u);
 }
 
+// Hard case: further.time_backwards
 TEST_F(GrassTime, a_repeated_sequence_of_frames_shows_the_same_each_time) {
   GrassStage stage;
   const Entity ball = begin(stage);

@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kStep = 1.0 / 120.0;
 
+// Hard case: grass.wind_0
 TEST(GrassWind, no_wind_is_still_air) {
   const WindField none = wind_at_step(nullptr, 7, kStep);
   const Wind still{vec3(0.0f), 1.0f};
@@ -26,6 +27,7 @@ TEST(GrassWind, no_wind_is_still_air) {
   }
 }
 
+// Hard case: further.denormals
 TEST(GrassWind, nan_and_absurd_velocities_become_finite) {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -63,6 +65,21 @@ TEST(GrassWind, gusts_travel_with_the_wind) {
   const WindField later = wind_at_step(&wind, 1120, kStep);
   const dvec3 at(31.0, 2.0, 77.0);
   EXPECT_LT(glm::length(wind_velocity(first, at) - wind_velocity(later, at + dvec3(4.0, 0.0, -3.0))), 1e-9);
+}
+
+// Hard case: further.thirty_days
+TEST(GrassWind, gusts_travel_for_thirty_days_as_whole_numbers_say) {
+  const Wind wind{vec3(4.5f, 0.0f, -3.25f), 0.8f};
+  for (std::uint64_t step = 311040000; step < 311040240; step += 7) {  // 30 days of 1/120 s
+    const WindField field = wind_at_step(&wind, static_cast<std::uint32_t>(step), 1.0 / 120.0);
+    // Quarters of a metre a second, in whole numbers: the way in 1/480 m, of a period of 256 m.
+    const auto way = [&](std::int64_t quarters) {
+      const std::int64_t period = 256 * 480, passed = quarters * static_cast<std::int64_t>(step) % period;
+      return static_cast<double>(passed < 0 ? passed + period : passed) / 480.0;
+    };
+    EXPECT_NEAR(field.drift.x, way(18), 1e-6) << step;
+    EXPECT_NEAR(field.drift.z, way(-13), 1e-6) << step;
+  }
 }
 
 TEST(GrassWind, gusts_change_strength_and_direction_with_the_place) {

@@ -7,20 +7,9 @@
 #include <cstdint>
 
 #include "modules/grass/reference/blade_solver.h"
+#include "modules/grass/reference/simulation_run.h"
 
 namespace gloam::test {
-
-/// A type whose stem leans forward as a parabola.
-[[nodiscard]] inline shaders::GrassTypeRow leaning_type(float stiffness) {
-  shaders::GrassTypeRow type{};
-  for (int k = 0; k < GLOAM_GRASS_KNOTS; ++k) {
-    const float u = static_cast<float>(k) / (GLOAM_GRASS_KNOTS - 1);
-    type.stem[k] = vec2(0.3f * u * u, 0.95f * u);
-  }
-  type.stiffness = stiffness;
-  type.taper = 0.1f;
-  return type;
-}
 
 struct KnotFaults {
   double longest = 0.0;    ///< greatest |length − length at rest|, over the length at rest

@@ -12,6 +12,8 @@ namespace {
 using test::built;
 using test::expect_right_bins;
 
+// Hard case: shadows.lights_0, shadows.lights_1, shadows.lights_31, shadows.lights_32, shadows.lights_33
+// Hard case: shadows.lights_5000
 TEST(ZBinsHard, of_any_number_of_lights_hold_each_of_them) {
   for (const std::uint32_t count : {0u, 1u, 31u, 32u, 33u, 1023u, 1024u, 1025u, 5000u, 65535u}) {
     std::vector<LightDepth> lights;
@@ -30,6 +32,7 @@ TEST(ZBinsHard, without_a_light_are_empty_in_both_sets) {
   EXPECT_GE(found.begin, found.end);
 }
 
+// Hard case: shadows.one_place, further.lights_1024_one_point
 TEST(ZBinsHard, of_lights_in_one_place_hold_all_of_them) {
   for (const float depth : {0.1f, 37.25f, 100.0f, 5000.0f}) {
     const std::vector<LightDepth> lights(1024, {depth, depth});
@@ -38,6 +41,7 @@ TEST(ZBinsHard, of_lights_in_one_place_hold_all_of_them) {
   }
 }
 
+// Hard case: shadows.one_bin
 TEST(ZBinsHard, of_lights_in_the_middle_of_one_bin_leave_all_other_bins_empty) {
   const ZBinParams params{1.0f, 65.0f, 64};  // bins of one metre
   std::vector<LightDepth> lights;
@@ -46,6 +50,7 @@ TEST(ZBinsHard, of_lights_in_the_middle_of_one_bin_leave_all_other_bins_empty) {
   for (std::uint32_t k = 0; k < params.count; ++k) EXPECT_EQ(bins.bins[k], k == 19 ? (ZBin{0, 200}) : ZBin{}) << k;
 }
 
+// Hard case: shadows.one_far_light
 TEST(ZBinsHard, of_one_light_beyond_the_last_bin_hold_it_there_alone) {
   for (const float depth : {101.0f, 1e6f, 1e9f, 1e30f}) {
     const ZBins bins = expect_right_bins({{depth, depth}}, {0.1f, 100.0f, 1024});
@@ -79,6 +84,7 @@ TEST(ZBinsHard, hold_a_light_on_the_edge_of_two_bins_from_both_sides) {
 }
 
 /// FF figure 3: twenty bins, three lights. Both errors come from using only the first and the last bin of a range.
+// Hard case: shadows.figure_3_between, shadows.figure_3_empty
 TEST(ZBinsHard, of_figure_3_find_what_lies_between_two_bins) {
   const ZBinParams params{1.0f, 21.0f, 20};  // bins of one metre
   const auto from_to = [](int first, int last) {
@@ -115,6 +121,7 @@ TEST(ZBinsHard, between_lights_find_none_of_them_by_range) {
   EXPECT_GE(found.begin, found.end);
 }
 
+// Hard case: shadows.near_to_far
 TEST(ZBinsHard, from_a_centimetre_to_100_kilometres_lose_no_light) {
   std::mt19937 random(3);
   for (const std::uint32_t count : {1u, 2u, 256u, 1024u, 4096u}) {

@@ -69,6 +69,7 @@ dvec3 point_at(const SearchedScene& scene, double x, double y, double metres) {
   return scene.position_at(x * scene.view.width, y * scene.view.height, static_cast<double>(scene.depth_of(metres)));
 }
 
+// Hard case: selftest.light_lists
 TEST_F(FindLightsAccurate, lists_are_those_of_brute_force_over_pixels) {
   FindLights kernels(device());
   Figures sum;
@@ -120,6 +121,7 @@ TEST_F(FindLightsAccurate, lists_are_complete_in_many_small_random_scenes) {
   EXPECT_GT(sum.certain, 1000u);
 }
 
+// Hard case: shadows.one_place, further.lights_1024_one_point
 TEST_F(FindLightsAccurate, lists_hold_any_number_of_lights_in_one_place) {
   for (const std::uint32_t rows : {0u, 1u}) {
     FindLights kernels(device(), rows);

@@ -149,6 +149,10 @@ const HardCase kHardCases[] = {
      [](LightScene& s) { s.light(point_lamp(1e8f, 1e5f), dvec3(9000.0, 4000.0, 3000.0)); }},
 };
 
+// Hard case: shadows.camera_inside_light, shadows.light_at_near_plane, shadows.light_behind_camera
+// Hard case: shadows.zero_radius, shadows.without_range, shadows.position_not_finite, shadows.intensity_not_finite
+// Hard case: shadows.range_not_finite, shadows.negative_intensity, shadows.cone_0, shadows.cone_120
+// Hard case: shadows.cone_180, shadows.one_place, shadows.one_bin
 TEST_F(LightScenesTest, of_hard_lights_are_the_same_from_lists_as_from_all_lights) {
   for (const HardCase& hard : kHardCases) {
     SCOPED_TRACE(hard.name);
@@ -160,12 +164,14 @@ TEST_F(LightScenesTest, of_hard_lights_are_the_same_from_lists_as_from_all_light
   }
 }
 
+// Hard case: shadows.node_zero_scale, shadows.node_mirrored, shadows.node_sheared
 TEST_F(LightScenesTest, on_flat_mirrored_and_sheared_nodes_are_the_same) {
   LightScene s = stage();
   add_on_odd_nodes(s);
   expect_tiled_is_brute_and_release(std::move(s), "odd nodes");
 }
 
+// Hard case: shadows.million_candela
 TEST_F(LightScenesTest, of_a_million_candela_at_a_centimetre_saturate) {
   LightScene s = stage();
   s.light(point_lamp(1e6f), dvec3(0.0, 2.0, -4.99));
@@ -173,6 +179,8 @@ TEST_F(LightScenesTest, of_a_million_candela_at_a_centimetre_saturate) {
   EXPECT_GE(brightest(frame.light), 60000.0f);
 }
 
+// Hard case: shadows.lights_0, shadows.lights_1, shadows.lights_31, shadows.lights_32, shadows.lights_33
+// Hard case: shadows.lights_1023, shadows.lights_1024, shadows.lights_1025, shadows.lights_5000
 TEST_F(LightScenesTest, of_any_number_of_lights_are_the_same) {
   for (const int count : {0, 1, 31, 32, 33, 1023, 1024, 1025, 5000}) {
     LightScene s = stage();
@@ -185,6 +193,7 @@ TEST_F(LightScenesTest, of_any_number_of_lights_are_the_same) {
   }
 }
 
+// Hard case: shadows.size_1x1, shadows.size_7x5, shadows.size_33x31
 TEST_F(LightScenesTest, of_hard_sizes_are_the_same) {
   for (const uvec2 size : {uvec2(1, 1), uvec2(7, 5), uvec2(8, 8), uvec2(33, 31), uvec2(64, 64), uvec2(65, 63),
                            uvec2(257, 129), uvec2(3, 400)}) {
@@ -197,6 +206,7 @@ TEST_F(LightScenesTest, of_hard_sizes_are_the_same) {
   }
 }
 
+// Hard case: shadows.camera_orthographic, shadows.camera_rolled
 TEST_F(LightScenesTest, of_hard_cameras_are_the_same) {
   struct Lens {
     const char* name;
@@ -227,6 +237,7 @@ TEST_F(LightScenesTest, of_hard_cameras_are_the_same) {
   }
 }
 
+// Hard case: shadows.at_100_km
 TEST_F(LightScenesTest, a_hundred_kilometres_from_the_origin_are_the_same) {
   const auto lit_stage = [&](const dvec3& origin) {
     LightScene s = stage(origin);
@@ -248,6 +259,7 @@ TEST_F(LightScenesTest, a_hundred_kilometres_from_the_origin_are_the_same) {
   }
 }
 
+// Hard case: shadows.near_to_far
 TEST_F(LightScenesTest, from_a_centimetre_to_100_kilometres_are_the_same) {
   LightScene s = stage();
   s.view.camera.near_m = 0.01f;
@@ -262,6 +274,7 @@ TEST_F(LightScenesTest, from_a_centimetre_to_100_kilometres_are_the_same) {
   expect_tiled_is_brute_and_release(std::move(s), "a centimetre to 100 kilometres");
 }
 
+// Hard case: shadows.one_far_light
 TEST_F(LightScenesTest, of_one_far_light_are_the_same) {
   LightScene s = empty_scene();
   Material chalk;
@@ -275,6 +288,7 @@ TEST_F(LightScenesTest, of_one_far_light_are_the_same) {
 }
 
 /// Rasterisation interpolates over a pane of this size with errors of many of its pixels near the camera.
+// Hard case: further.huge_triangle
 TEST_F(LightScenesTest, through_glass_of_100_kilometres_are_the_same) {
   for (const double roll : {0.0, 0.7}) {
     LightScene s = stage();
@@ -293,6 +307,7 @@ TEST_F(LightScenesTest, through_glass_of_100_kilometres_are_the_same) {
   }
 }
 
+// Hard case: shadows.size_4095x2161
 TEST_F(LightScenesTest, of_4095_columns_lose_no_light) {
   LightScene s = stage();
   scatter(s, 9, 47, 2.0);
@@ -306,6 +321,7 @@ TEST_F(LightScenesTest, of_4095_columns_lose_no_light) {
   renderer->release_world(*s.world);
 }
 
+// Hard case: shadows.all_sky
 TEST_F(LightScenesTest, of_nothing_but_sky_have_no_light_in_any_list) {
   LightScene s = empty_scene();
   scatter(s, 100, 17, 2.0);
@@ -314,6 +330,7 @@ TEST_F(LightScenesTest, of_nothing_but_sky_have_no_light_in_any_list) {
   EXPECT_EQ(counter(frame, "lights.visible"), 0.0) << "such a view demands no lights";
 }
 
+// Hard case: shadows.sky_and_near
 TEST_F(LightScenesTest, of_sky_and_near_things_in_one_tile_are_the_same) {
   LightScene s = empty_scene();
   const std::uint32_t pole = s.make.mesh(test::box(vec3(0.02f, 1.0f, 0.02f)));
@@ -325,6 +342,7 @@ TEST_F(LightScenesTest, of_sky_and_near_things_in_one_tile_are_the_same) {
 
 /// FF figure 3: a tile whose nearest and farthest surfaces are in bins that do not hold the lights between them. Thin
 /// poles stand there.
+// Hard case: shadows.figure_3_between
 TEST_F(LightScenesTest, of_figure_3_light_what_stands_between_the_ends_of_a_tile) {
   for (const char* bins : {"256", "1024", "4096"}) {
     set("lights.z_bins", bins);

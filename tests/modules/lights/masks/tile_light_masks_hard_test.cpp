@@ -112,6 +112,7 @@ void expect_right_everywhere(const std::vector<std::pair<dvec3, double>>& places
   for (const Lens& lens : kLenses) expect_right_masks(lights, view_with(lens), samples);
 }
 
+// Hard case: shadows.camera_inside_light
 TEST(TileLightMasksHard, with_the_camera_inside_a_light_miss_nothing) {
   expect_right_everywhere(
       {{dvec3(0.0), 5.0}, {dvec3(0.5, -0.3, -0.2), 3.0}, {dvec3(0.0, 0.0, 2.9), 3.0}, {dvec3(4.0, 0.0, 0.0), 4.001}});
@@ -124,6 +125,7 @@ TEST(TileLightMasksHard, with_the_camera_on_a_lights_surface_miss_nothing) {
                            {dvec3(3.0, 4.0, 0.0), 5.0}});
 }
 
+// Hard case: shadows.light_at_near_plane
 TEST(TileLightMasksHard, across_the_near_plane_miss_nothing) {
   expect_right_everywhere({{dvec3(0.0, 0.0, -0.1), 0.02},
                            {dvec3(0.1, 0.05, -0.08), 0.05},
@@ -133,6 +135,7 @@ TEST(TileLightMasksHard, across_the_near_plane_miss_nothing) {
                            {dvec3(0.0, 5.0, 4.0), 6.3}});
 }
 
+// Hard case: shadows.light_at_far_end
 TEST(TileLightMasksHard, at_the_far_end_miss_nothing) {
   expect_right_everywhere({{dvec3(0.0, 0.0, -1000.0), 3.0},
                            {dvec3(20.0, 10.0, -1000.2), 1.0},
@@ -140,6 +143,7 @@ TEST(TileLightMasksHard, at_the_far_end_miss_nothing) {
                            {dvec3(0.0, 0.0, -1e6), 1e5}});
 }
 
+// Hard case: shadows.light_behind_camera
 TEST(TileLightMasksHard, behind_the_camera_are_in_no_tile) {
   const std::vector<MaskLight> lights = {point_mask_light(dvec3(0.0, 0.0, 6.0), 5.0),
                                          spot_mask_light(dvec3(1.0, 0.0, 9.0), dvec3(0.0, 0.0, -1.0), 0.5, 7.0)};
@@ -155,6 +159,7 @@ TEST(TileLightMasksHard, beside_the_picture_are_in_no_tile) {
   for (const TileBound bound : kBounds) EXPECT_EQ(bits_of(built(lights, view_with({}), bound)), 0u);
 }
 
+// Hard case: shadows.zero_radius
 TEST(TileLightMasksHard, of_no_extent_are_where_the_light_is) {
   expect_right_everywhere({{dvec3(0.0, 0.0, -5.0), 0.0},
                            {dvec3(1.0, 0.4, -5.0), 1e-30},
@@ -163,6 +168,7 @@ TEST(TileLightMasksHard, of_no_extent_are_where_the_light_is) {
   EXPECT_LE(bits_of(built({point_mask_light(dvec3(0.3, 0.2, -5.0), 0.0)}, view_with({}), TileBound::row_interval)), 1u);
 }
 
+// Hard case: shadows.without_range
 TEST(TileLightMasksHard, without_an_end_are_in_every_tile) {
   for (const Lens& lens : kLenses) {
     const RenderView view = view_with(lens);
@@ -267,6 +273,7 @@ TEST(TileLightMasksHard, keep_every_other_light_when_one_is_not_a_number) {
 
 /// For spheres beyond the near plane: a row interval holds no tile farther than a pixel from the sphere's outline. A
 /// rectangle holds no tile farther than a pixel from the outline's bounding rectangle.
+// Hard case: shadows.camera_off_centre
 TEST(TileLightMasksHard, hold_no_tile_farther_than_a_pixel_from_the_light) {
   int whole = 0;  // outlines inside the picture
   for (const Lens& lens :

@@ -39,6 +39,7 @@ TEST(EffectiveRange, is_the_range_that_was_set) {
   EXPECT_EQ(effective_range(light), 3.5f);
 }
 
+// Hard case: shadows.without_range
 TEST(EffectiveRange, without_a_range_is_where_the_light_falls_to_a_millionth_lux) {
   Light light;
   light.intensity = 4.0f;
@@ -155,6 +156,7 @@ TEST(SpotRamp, of_a_point_light_is_one_everywhere) {
   EXPECT_EQ(strength_at(light, 3.0), 1.0);
 }
 
+// Hard case: shadows.cone_0
 TEST(SpotRamp, of_a_cone_of_no_angle_is_finite) {
   const vec2 ramp = spot_ramp(spot_light(0.0f, 0.0f));
   EXPECT_TRUE(std::isfinite(ramp.x) && std::isfinite(ramp.y));

@@ -302,6 +302,7 @@ void expect_finite(const VisibleLights& visible) {
   }
 }
 
+// Hard case: shadows.position_not_finite, shadows.intensity_not_finite, shadows.range_not_finite
 TEST(SelectLights, lets_no_nan_and_no_infinity_reach_the_gpu) {
   std::vector<PlacedLight> lights;
   const auto add = [&](const PlacedLight& light) {

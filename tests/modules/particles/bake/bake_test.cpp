@@ -228,6 +228,7 @@ TEST(BakedParticleLight, far_from_the_origin_is_the_same) {
     ASSERT_NEAR(fluence(a.flux[0][texel]), fluence(b.flux[0][texel]), 2e-3 * fluence(a.flux[0][texel]));
 }
 
+// Hard case: particles.emitter_no_size
 TEST(BakedParticleLight, of_an_emitter_of_no_size_has_a_grid) {
   BakeScene scene;
   const Entity emitter = scene.add_emitter({0.0, 0.0, 0.0}, vec3(0.0f));

@@ -160,6 +160,25 @@ TEST_F(ParticleBlend, the_picture_repeats_to_the_bit_for_every_number_of_threads
   EXPECT_GT(first.size(), 0u);
 }
 
+// Hard case: further.time_backwards
+TEST_F(ParticleBlend, time_that_runs_backwards_shows_what_it_showed) {
+  ParticleStage stage;
+  stage.emitter(cloud(EmitterKind::smoke, 300.0f));
+  stage.lamp({-2.0, 0.0, 0.0}, vec3(1.0f, 0.6f, 0.3f), 30.0f);
+  std::vector<std::vector<float>> shown;
+  for (int frame = 0; frame < 8; ++frame) {
+    stage.set_time(0.25 * frame - 1.0);
+    stage.draw(front());
+    shown.push_back(stage.linear());
+  }
+  for (int frame = 7; frame-- > 0;) {
+    stage.set_time(0.25 * frame - 1.0);
+    stage.draw(front());
+    EXPECT_TRUE(stage.linear() == shown[static_cast<std::size_t>(frame)]) << frame;
+    EXPECT_FALSE(stage.linear() == shown[static_cast<std::size_t>(frame) + 1]) << frame;
+  }
+}
+
 TEST_F(ParticleBlend, an_emitter_that_was_out_of_view_looks_as_if_it_had_been_in_view) {
   const auto show = [&](bool away) {
     ParticleStage stage;
@@ -175,6 +194,7 @@ TEST_F(ParticleBlend, an_emitter_that_was_out_of_view_looks_as_if_it_had_been_in
   EXPECT_TRUE(show(true) == show(false));
 }
 
+// Hard case: particles.camera_inside, further.camera_inside_emitter
 TEST_F(ParticleBlend, a_camera_inside_the_cloud_sees_finite_light_and_no_sprite_before_the_near_plane) {
   ParticleStage stage;
   ParticleEmitter fog = cloud(EmitterKind::fog, 400.0f);
@@ -224,6 +244,7 @@ TEST_F(ParticleBlend, sprites_fade_where_they_meet_a_surface_and_are_hidden_behi
   EXPECT_EQ(behind, 0.0);
 }
 
+// Hard case: particles.million
 TEST_F(ParticleBlend, a_million_particles_are_sorted_and_more_are_thinned) {
   ParticleStage stage;
   ParticleEmitter dust = cloud(EmitterKind::dust, 1e6f, 3.0f);

@@ -12,6 +12,7 @@
 namespace gloam {
 namespace {
 
+// Hard case: further.time_negative
 TEST(ParticleBirths, all_ages_are_within_the_lifetime_and_no_particle_is_missing) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> share(0.0, 1.0);
@@ -56,6 +57,20 @@ TEST(ParticleBirths, steps_do_not_depend_on_how_frames_add_up) {
     EXPECT_EQ(particle_step(time), 24000) << dt;
   }
   EXPECT_EQ(particle_step(-1.0 / 240.0), -1);
+}
+
+// Hard case: further.thirty_days
+TEST(ParticleBirths, after_thirty_days_are_those_of_whole_numbers) {
+  // At 30 a second, particle n is born at step 8n, and lives for 600 steps: all ages are fractions of whole numbers.
+  const std::int64_t days_30 = std::int64_t{30} * 86400 * 240;
+  for (std::int64_t step = days_30 - 20; step <= days_30 + 20; ++step) {
+    const LiveParticles live = live_particles(30.0, 2.5, step);
+    const std::int64_t youngest = step / 8;
+    EXPECT_EQ(live.oldest, youngest - 74) << step;
+    EXPECT_EQ(live.count, 75u) << step;
+    EXPECT_NEAR(live.oldest_age_s, static_cast<double>(step - 8 * live.oldest) / 240.0, 1e-9) << step;
+  }
+  EXPECT_EQ(particle_step(30.0 * 86400.0), days_30);
 }
 
 TEST(ParticleBirths, times_that_are_not_finite_are_contained) {

@@ -6,8 +6,8 @@
 
 #include <cmath>
 
+#include "modules/particles/reference/particle_twin.h"
 #include "tests/modules/particles/support/emitters.h"
-#include "tests/modules/particles/support/particle_twin.h"
 #include "tests/support/scale.h"
 
 namespace gloam::test {
@@ -50,6 +50,7 @@ TEST(ParticleBounds, are_not_much_larger_than_needed) {
   for (int i = 0; i < 3; ++i) EXPECT_LT(bound[i], 3.0 * found[i]) << i;
 }
 
+// Hard case: particles.emitter_no_size
 TEST(ParticleBounds, of_a_box_without_size_hold_the_sprites) {
   ParticleEmitter values;
   values.kind = EmitterKind::dust;

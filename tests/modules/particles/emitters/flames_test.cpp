@@ -8,8 +8,8 @@
 #include <limits>
 
 #include "modules/particles/emitters/kinds.h"
+#include "modules/particles/reference/particle_twin.h"
 #include "tests/modules/particles/support/emitters.h"
-#include "tests/modules/particles/support/particle_twin.h"
 
 namespace gloam::test {
 namespace {

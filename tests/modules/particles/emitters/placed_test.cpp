@@ -24,6 +24,7 @@ ParticleEmitter smoke(float rate, float lifetime_s) {
   return values;
 }
 
+// Hard case: particles.lifetime_0
 TEST(PlacedEmitters, without_kind_rate_or_lifetime_emit_nothing) {
   EXPECT_TRUE(emits(smoke(1.0f, 1.0f)));
   EXPECT_FALSE(emits(ParticleEmitter{}));
@@ -57,6 +58,7 @@ TEST(PlacedEmitters, values_and_matrices_that_are_not_finite_are_refused) {
   }
 }
 
+// Hard case: particles.emitter_no_size
 TEST(PlacedEmitters, a_node_of_no_size_emits_from_a_point_upward) {
   dmat4 matrix(0.0);
   matrix[3] = dvec4(1.0, 2.0, 3.0, 1.0);
@@ -87,6 +89,7 @@ TEST(PlacedEmitters, the_slowest_rate_has_finite_times_between_births) {
   EXPECT_TRUE(std::isfinite(row.interval_s) && std::isfinite(row.oldest_age_s));
 }
 
+// Hard case: particles.million
 TEST(PlacedEmitters, a_world_has_at_most_a_million_particles_and_counts_the_rest) {
   std::vector<PlacedEmitter> few = {placed(smoke(100.0f, 2.0f)), placed(smoke(1e5f, 9.0f))};
   EXPECT_EQ(limit_particles(few), 0.0);

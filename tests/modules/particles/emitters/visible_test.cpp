@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "modules/particles/reference/particle_twin.h"
 #include "tests/modules/particles/support/emitters.h"
-#include "tests/modules/particles/support/particle_twin.h"
 #include "tests/support/render_scene.h"
 
 namespace gloam::test {
@@ -47,6 +47,7 @@ TEST(VisibleEmitters, leave_out_emitters_behind_the_camera_and_beside_the_view) 
   EXPECT_TRUE(find_visible_emitters({&emitter, 1}, view_of({0.0, 0.0, 30.0}, {60.0, 0.0, 30.0}), 0).emitters.empty());
 }
 
+// Hard case: particles.camera_inside
 TEST(VisibleEmitters, around_the_camera_have_depths_from_the_near_plane) {
   ParticleEmitter values;
   values.kind = EmitterKind::fog;

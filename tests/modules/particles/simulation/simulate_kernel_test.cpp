@@ -8,11 +8,12 @@
 #include <vector>
 
 #include "engine/render/camera/view_constants.h"
+#include "modules/particles/reference/kernel_checks.h"
+#include "modules/particles/reference/particle_twin.h"
 #include "modules/particles/simulation/simulate_particles_pass.h"
 #include "modules/particles/sorting/key_ranges.h"
 #include "shaders/particles/shaders.h"
 #include "tests/modules/particles/support/emitters.h"
-#include "tests/modules/particles/support/particle_twin.h"
 #include "tests/support/kernel.h"
 #include "tests/support/render_scene.h"
 #include "tests/support/scale.h"
@@ -20,53 +21,10 @@
 namespace gloam::test {
 namespace {
 
-struct Simulated {
-  std::vector<shaders::Particle> particles;
-  std::vector<std::uint32_t> keys;
-};
-
-/// The rows of emitters in a view, one after the other.
-struct Scene {
-  RenderView view = make_view(look_at(dvec3(0.0, 1.0, 6.0), dvec3(0.0), 320, 180), 0);
-  std::vector<shaders::ParticleEmitterRow> rows;
-  std::vector<std::uint32_t> groups;
-
-  void add(const PlacedEmitter& emitter, std::int64_t step) {
-    const auto first = static_cast<std::uint32_t>(groups.size() * GLOAM_PARTICLE_GROUP);
-    shaders::ParticleEmitterRow row = row_at(emitter, step, view.position, first);
-    row.far_m = 40.0f;
-    row.keys = kTwoDigitKeys;
-    row.keys_per_m = static_cast<float>(row.keys) / row.far_m;
-    groups.insert(groups.end(), (row.count + GLOAM_PARTICLE_GROUP - 1) / GLOAM_PARTICLE_GROUP,
-                  static_cast<std::uint32_t>(rows.size()));
-    rows.push_back(row);
-  }
-  [[nodiscard]] shaders::ParticleFrame frame() const {
-    shaders::ParticleFrame frame{};
-    for (int i = 0; i < 4; ++i)
-      frame.planes[i] = vec4(view.frustum.planes[static_cast<std::size_t>(i)].normal,
-                             view.frustum.planes[static_cast<std::size_t>(i)].distance);
-    frame.near_m = view.near_m;
-    frame.places = static_cast<std::uint32_t>(groups.size() * GLOAM_PARTICLE_GROUP);
-    frame.culled_key = 0xFFFF;
-    return frame;
-  }
-};
-
 class ParticleSimulation : public KernelTest {
  protected:
-  [[nodiscard]] static Simulated simulate(const Scene& scene) {
-    Kernel kernel(device(), shaders::particles::simulate_comp, {{"kOneEmitter", 0u}});
-    kernel.push(shaders::ParticleDispatch{});
-    const std::size_t places = scene.groups.size() * GLOAM_PARTICLE_GROUP;
-    kernel.input(0, std::vector{view_constants(scene.view)});
-    kernel.input(1, std::vector{scene.frame()});
-    kernel.input(2, scene.rows);
-    kernel.input(3, scene.groups);
-    kernel.output(4, places * sizeof(shaders::Particle));
-    kernel.output(5, places * sizeof(std::uint32_t));
-    kernel.run(static_cast<std::uint32_t>(scene.groups.size()));
-    return {kernel.read<shaders::Particle>(4), kernel.read<std::uint32_t>(5)};
+  [[nodiscard]] static ParticleStates simulate(const SimulationRows& rows) {
+    return value_of(run_particles(KernelLab(device(), gpu_log()), rows));
   }
 };
 
@@ -84,12 +42,13 @@ int shows(const RenderView& view, const TwinParticle& p, double slack) {
   return least > slack ? 1 : least < -slack ? -1 : 0;
 }
 
+// Hard case: selftest.particles
 TEST_F(ParticleSimulation, states_and_keys_are_those_of_the_twin) {
   std::mt19937 random(4);
-  Scene scene;
+  SimulationRows scene;
   for (int i = 0; i < scaled(24); ++i)
     scene.add(placed(any_emitter(random, kAllKinds[i % 4]), any_pose(random), static_cast<std::uint32_t>(i)), 1000 * i);
-  const Simulated found = simulate(scene);
+  const ParticleStates found = simulate(scene);
   std::size_t drawn = 0, culled = 0;
   for (const shaders::ParticleEmitterRow& row : scene.rows)
     for (std::uint32_t k = 0; k < row.count; ++k) {
@@ -122,14 +81,16 @@ TEST_F(ParticleSimulation, states_and_keys_are_those_of_the_twin) {
   EXPECT_GT(culled, 100u);
 }
 
+TEST_F(ParticleSimulation, holds_in_the_self_test) { expect_holds(particle_kernel_checks()); }
+
 TEST_F(ParticleSimulation, places_without_a_particle_are_never_drawn) {
-  Scene scene;
+  SimulationRows scene;
   ParticleEmitter values;
   values.kind = EmitterKind::fog;
   values.rate = 10.0f;
   values.lifetime_s = 1.0f;
   for (std::uint32_t i = 0; i < 5; ++i) scene.add(placed(values, dmat4(1.0), i), 100);
-  const Simulated found = simulate(scene);
+  const ParticleStates found = simulate(scene);
   for (std::size_t place = 0; place < found.keys.size(); ++place) {
     if (place % GLOAM_PARTICLE_GROUP >= scene.rows[0].count) {
       EXPECT_EQ(found.keys[place], 0xFFFFu) << place;
@@ -142,11 +103,11 @@ TEST_F(ParticleSimulation, a_particle_does_not_depend_on_its_place_nor_on_the_ru
   values.kind = EmitterKind::smoke;
   values.rate = 300.0f;
   values.lifetime_s = 3.0f;
-  Scene alone, among;
+  SimulationRows alone, among;
   alone.add(placed(values), 777);
   for (std::uint32_t i = 0; i < 3; ++i) among.add(placed(values, dmat4(1.0), 40 + i), 777);
   among.add(placed(values), 777);
-  const Simulated a = simulate(alone), again = simulate(alone), b = simulate(among);
+  const ParticleStates a = simulate(alone), again = simulate(alone), b = simulate(among);
   const std::size_t bytes = alone.rows[0].count * sizeof(shaders::Particle);
   EXPECT_EQ(std::memcmp(a.particles.data(), again.particles.data(), bytes), 0);
   for (std::uint32_t k = 0; k < alone.rows[0].count; ++k) {
@@ -161,9 +122,9 @@ TEST_F(ParticleSimulation, a_dispatch_of_one_emitter_gives_the_same_particles_to
   values.kind = EmitterKind::fire;
   values.rate = 900.0f;
   values.lifetime_s = 1.0f;
-  Scene scene;
+  SimulationRows scene;
   for (std::uint32_t i = 0; i < 3; ++i) scene.add(placed(values, dmat4(1.0), i), 333);
-  const Simulated all = simulate(scene);
+  const ParticleStates all = simulate(scene);
   Kernel kernel(device(), shaders::particles::simulate_comp, {{"kOneEmitter", 1u}});
   const shaders::ParticleEmitterRow& row = scene.rows[1];
   const std::uint32_t first_group = row.first / GLOAM_PARTICLE_GROUP, groups = (row.count + 63) / 64;
@@ -217,9 +178,9 @@ TEST_F(ParticleSimulation, a_particle_moves_and_fades_without_jumps_from_birth_t
   values.lifetime_s = 1.5f;
   for (const EmitterKind kind : kAllKinds) {
     values.kind = kind;
-    Scene scene;
+    SimulationRows scene;
     for (std::int64_t step = 0; step < 400; ++step) scene.add(placed(values), step);
-    const Simulated found = simulate(scene);
+    const ParticleStates found = simulate(scene);
     for (std::size_t step = 0; step < 400; ++step) {
       const shaders::ParticleEmitterRow& row = scene.rows[step];
       const shaders::Particle& oldest = found.particles[row.first];
@@ -242,8 +203,9 @@ TEST_F(ParticleSimulation, a_particle_moves_and_fades_without_jumps_from_birth_t
   }
 }
 
+// Hard case: particles.behind_near_plane
 TEST_F(ParticleSimulation, particles_behind_the_near_plane_and_at_the_camera_are_not_drawn) {
-  Scene scene;
+  SimulationRows scene;
   scene.view = make_view(look_at(dvec3(0.0), dvec3(0.0, 0.0, -1.0), 64, 64), 0);
   ParticleEmitter values;
   values.kind = EmitterKind::fog;
@@ -251,7 +213,7 @@ TEST_F(ParticleSimulation, particles_behind_the_near_plane_and_at_the_camera_are
   values.lifetime_s = 1.0f;
   values.size_m = 3.0f;
   scene.add(placed(values), 55);
-  const Simulated found = simulate(scene);
+  const ParticleStates found = simulate(scene);
   std::size_t drawn = 0;
   for (std::uint32_t k = 0; k < scene.rows[0].count; ++k) {
     if (-found.particles[k].position.z <= scene.view.near_m) {
@@ -270,12 +232,12 @@ TEST_F(ParticleSimulation, rows_with_nan_and_infinity_draw_nothing) {
   ParticleEmitter values;
   values.kind = EmitterKind::smoke;
   for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
-    Scene scene;
+    SimulationRows scene;
     for (int i = 0; i < 4; ++i) scene.add(placed(values), 10);
     scene.rows[0].origin.x = bad;
     scene.rows[1].size_m = bad == bad ? 0.0f : bad;  // an infinite sprite would cover the view
     scene.rows[2].oldest_age_s = bad;
-    const Simulated found = simulate(scene);
+    const ParticleStates found = simulate(scene);
     for (int i = 0; i < 2; ++i)
       for (std::uint32_t k = 0; k < scene.rows[static_cast<std::size_t>(i)].count; ++k)
         EXPECT_EQ(found.keys[scene.rows[static_cast<std::size_t>(i)].first + k], 0xFFFFu) << i;

@@ -68,6 +68,7 @@ TEST_F(ParticleSort, two_digits_order_many_particles_and_keep_those_of_one_key_i
   }
 }
 
+// Hard case: particles.none
 TEST_F(ParticleSort, all_drawn_none_drawn_and_equal_keys) {
   expect_sorted(std::vector<std::uint32_t>(640, 0xFFFF), true);
   expect_sorted(std::vector<std::uint32_t>(640, 0xFF), false);

@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/frame/transfers/upload.h"
 #include "engine/math/packing.h"
 #include "engine/render/camera/view_constants.h"
 #include "modules/particles/baked_light.h"

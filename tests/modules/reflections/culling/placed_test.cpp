@@ -50,6 +50,7 @@ TEST(PlacedProxies, keep_their_side_under_mirrored_scales) {
   }
 }
 
+// Hard case: reflections.no_area
 TEST(PlacedProxies, without_area_are_recognised) {
   EXPECT_EQ(placement({0.0f, 1.0f}, dmat4(1.0)), ProxyPlacement::no_area);
   EXPECT_EQ(placement({1.0f, 0.0f}, dmat4(1.0)), ProxyPlacement::no_area);

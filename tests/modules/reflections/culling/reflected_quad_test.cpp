@@ -33,6 +33,7 @@ TEST(ReflectedQuads, before_a_level_camera_cover_the_columns_of_the_quad) {
   EXPECT_NEAR(range.max, 3.0 / 10.0 / half_width(view), 1e-6);
 }
 
+// Hard case: reflections.near_plane
 TEST(ReflectedQuads, that_cross_the_near_plane_reach_the_border_of_the_screen) {
   // From 10 m before the camera to 10 m behind it, 1 m to its right.
   const RenderView view = test::view_from({0.0, 2.0, 0.0}, 0.0, 0.0);
@@ -41,11 +42,13 @@ TEST(ReflectedQuads, that_cross_the_near_plane_reach_the_border_of_the_screen) {
   EXPECT_GT(range.max, 1.0);
 }
 
+// Hard case: reflections.behind_camera
 TEST(ReflectedQuads, behind_a_level_camera_are_out_of_view) {
   const RenderView view = test::view_from({0.0, 2.0, 0.0}, 0.0, 0.0);
   EXPECT_TRUE(exact_range(quad({0.0, 1.5, 5.0}, {0.0, 0.0, -1.0}, {4.0f, 3.0f}), view).empty());
 }
 
+// Hard case: reflections.behind_camera
 TEST(ReflectedQuads, of_a_ceiling_behind_a_camera_that_looks_down_stay) {
   const RenderView view = test::view_from({0.0, 2.0, 0.0}, 0.0, -1.4);
   const PlacedProxy ceiling = quad({0.0, 6.0, 1.0}, {0.0, -1.0, 0.0}, {1.0f, 1.0f});
@@ -95,6 +98,7 @@ TEST(ReflectedQuads, face_the_mirrored_eye_and_not_the_eye) {
   EXPECT_TRUE(may_face_viewer(rising, kFromZero, high));
 }
 
+// Hard case: reflections.edge_on
 TEST(ReflectedQuads, that_are_edge_on_may_face_the_viewer_and_have_a_narrow_range) {
   const RenderView view = test::view_from({0.0, 2.0, 0.0}, 0.0, -0.2);
   const PlacedProxy edge = quad({0.0, 1.5, -6.0}, {1.0, 0.0, 0.0}, {3.0f, 3.0f});
@@ -105,6 +109,7 @@ TEST(ReflectedQuads, that_are_edge_on_may_face_the_viewer_and_have_a_narrow_rang
   EXPECT_NEAR(range.max, 0.0, 1e-6);
 }
 
+// Hard case: reflections.camera_on_plane
 TEST(ReflectedQuads, that_lie_in_the_planes_of_the_floor_and_the_eye_have_finite_ranges) {
   // Rotated horizontal proxies, whose corners are rounded to both sides of the plane.
   test::ProxyRandom random(21);

@@ -39,6 +39,7 @@ test::ProxyScene three_rooms() {
   return scene;
 }
 
+// Hard case: reflections.rooms_overlap, reflections.rooms_nested
 TEST(IbrRooms, that_contain_the_camera_are_all_chosen) {
   const test::ProxyScene scene = three_rooms();
   EXPECT_EQ(chosen_by(scene, {5.0, 2.0, 0.0}), (Indices{0}));
@@ -48,6 +49,7 @@ TEST(IbrRooms, that_contain_the_camera_are_all_chosen) {
   EXPECT_EQ(chosen_by(scene, {15.0, 0.5, 0.0}), (Indices{}));
 }
 
+// Hard case: reflections.camera_on_room_face
 TEST(IbrRooms, contain_a_camera_on_their_faces_edges_and_corners) {
   for (const double offset : {0.0, 1e4, 3e6}) {
     for (const double turn : {0.0, 0.3, 2.0}) {
@@ -67,6 +69,7 @@ TEST(IbrRooms, contain_a_camera_on_their_faces_edges_and_corners) {
   }
 }
 
+// Hard case: reflections.rooms_overlap, reflections.rooms_nested
 TEST(IbrRooms, let_only_their_own_proxies_be_reflected) {
   const test::ProxyScene scene = three_rooms();
   EXPECT_EQ(reflected_by(scene, {5.0, 2.0, 0.0}), (Indices{0, 1, 2}));
@@ -99,6 +102,7 @@ TEST(ReceiverBands, begin_at_the_lowest_floor_of_the_shared_rooms) {
   EXPECT_NEAR(lowest(4, {50.0, 9.0, 0.0}), 1.5 - kOpenExtension_m, 1e-12);
 }
 
+// Hard case: reflections.two_floors
 TEST(ReceiverBands, lie_around_the_stated_heights_and_merge) {
   test::ProxyScene scene;
   scene.add({0.0, 3.0, 0.0}, {0.0, 0.0, 1.0}, {1.0f, 1.0f});

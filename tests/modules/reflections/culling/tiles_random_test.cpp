@@ -91,6 +91,7 @@ void draw_rooms(ProxyRandom& random, double scale, const dvec3& offset, test::Pr
   }
 }
 
+// Hard case: selftest.proxy_tiles
 TEST(ProxyTilesRandom, never_miss_a_proxy_that_a_reflected_ray_hits) {
   test::HitCount count;
   std::uint64_t listed = 0;

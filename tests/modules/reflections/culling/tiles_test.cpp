@@ -86,6 +86,7 @@ TEST(ProxyTiles, list_no_proxy_that_faces_away_is_behind_or_is_in_another_room) 
   EXPECT_EQ(tiles.rooms, std::vector<std::uint32_t>{0});
 }
 
+// Hard case: reflections.straight_down
 TEST(ProxyTiles, never_miss_a_hit_in_hard_views) {
   struct Case {
     const char* name;
@@ -107,6 +108,7 @@ TEST(ProxyTiles, never_miss_a_hit_in_hard_views) {
   }
 }
 
+// Hard case: reflections.straight_up
 TEST(ProxyTiles, are_empty_for_a_camera_that_looks_straight_up) {
   const ProxyTiles tiles = test::build(hall(50), test::view_from({1.0, 1.7, 2.0}, 0.3, 0.5 * kPiD));
   EXPECT_TRUE(tiles.proxies.empty());
@@ -114,6 +116,7 @@ TEST(ProxyTiles, are_empty_for_a_camera_that_looks_straight_up) {
   EXPECT_EQ(tiles.count(ProxyOutcome::kept), 0u);
 }
 
+// Hard case: reflections.near_plane, reflections.larger_than_screen, reflections.horizontal
 TEST(ProxyTiles, never_miss_a_hit_of_a_proxy_larger_than_the_screen_at_or_around_the_camera) {
   const RenderView view = test::view_from({0.0, 1.0, 0.0}, 0.2, -0.5);
   test::ProxyScene scene;
@@ -127,6 +130,7 @@ TEST(ProxyTiles, never_miss_a_hit_of_a_proxy_larger_than_the_screen_at_or_around
   EXPECT_GT(expect_no_miss(scene, view, {.tiles = 64, .columns = 320}), least(1000));
 }
 
+// Hard case: reflections.two_floors
 TEST(ProxyTiles, never_miss_a_hit_over_two_floors) {
   // Street at 0 m, roof at 6 m; the camera on the roof sees both.
   test::ProxyScene scene;
@@ -144,6 +148,7 @@ TEST(ProxyTiles, never_miss_a_hit_over_two_floors) {
   }
 }
 
+// Hard case: reflections.camera_on_room_face
 TEST(ProxyTiles, never_miss_a_hit_from_a_face_of_two_rooms) {
   test::ProxyScene scene;
   scene.add_room({-5.0, 2.0, 0.0}, {10.0f, 4.0f, 20.0f});
@@ -155,6 +160,8 @@ TEST(ProxyTiles, never_miss_a_hit_from_a_face_of_two_rooms) {
   EXPECT_GT(expect_no_miss(scene, view, {}, -2.0), least(100));
 }
 
+// Hard case: reflections.proxies_0, reflections.proxies_1, reflections.proxies_50, reflections.proxies_51
+// Hard case: reflections.proxies_500
 TEST(ProxyTiles, work_for_any_number_of_proxies_tiles_and_columns) {
   for (const std::uint32_t count : {0u, 1u, 31u, 32u, 33u, 50u, 51u, 500u, 700u}) {
     for (const std::uint32_t tile_count : {1u, 4u, 8u, 16u, 32u, 64u}) {

@@ -198,6 +198,7 @@ class ProxyBlend : public KernelTest {
   }
 };
 
+// Hard case: selftest.proxy_tiles, selftest.tiles_naive
 TEST_F(ProxyBlend, tiles_give_the_picture_of_the_naive_loop) {
   for (const ProxyCase& c : hard_cases()) {
     const ProxyWorld world(c.proxies);
@@ -216,6 +217,9 @@ TEST_F(ProxyBlend, tiles_give_the_picture_of_the_naive_loop) {
   }
 }
 
+// Hard case: reflections.camera_on_plane, reflections.straight_down, reflections.straight_up, reflections.edge_on
+// Hard case: reflections.near_plane, reflections.behind_camera, reflections.larger_than_screen
+// Hard case: reflections.horizontal, reflections.rooms_overlap, reflections.rooms_nested, reflections.two_floors
 TEST_F(ProxyBlend, pictures_are_those_of_rays_in_double) {
   std::size_t compared = 0, shown = 0;
   std::uint32_t cases = 0;
@@ -263,6 +267,8 @@ TEST_F(ProxyBlend, pictures_are_those_of_rays_in_double) {
   EXPECT_GT(shown, 2500u);
 }
 
+// Hard case: reflections.proxies_0, reflections.proxies_1, reflections.proxies_50, reflections.proxies_51
+// Hard case: reflections.proxies_500
 TEST_F(ProxyBlend, any_number_of_proxies_is_blended) {
   ProxyRandom random(33);
   for (const int count : {0, 1, 31, 32, 33, 50, 51, 500}) {

@@ -81,6 +81,7 @@ TEST_F(ScreenSpaceMarch, a_floor_never_reflects_itself_or_the_sky) {
     }
 }
 
+// Hard case: reflections.thin_foreground
 TEST_F(ScreenSpaceMarch, rays_behind_a_thin_object_fall_back) {
   // A bar in front of the floor: the rays of the floor below it on the screen pass far behind it.
   SyntheticScene scene;

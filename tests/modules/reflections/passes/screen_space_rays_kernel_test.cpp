@@ -58,6 +58,7 @@ TEST_F(ScreenSpaceTrace, confidence_falls_to_nothing_where_rays_turn_toward_the_
   }
 }
 
+// Hard case: reflections.straight_down, reflections.straight_up
 TEST_F(ScreenSpaceTrace, straight_down_and_straight_up_give_numbers) {
   ProxyRandom random(5);
   const SyntheticScene scene = random_scene(random, 8);
@@ -119,6 +120,7 @@ TEST_F(ScreenSpaceTrace, sides_that_the_camera_does_not_see_are_not_reflected) {
   }
 }
 
+// Hard case: reflections.nan_light
 TEST_F(ScreenSpaceTrace, light_that_is_no_number_is_black) {
   SyntheticScene scene;
   scene.boxes.push_back({{-3.0, 0.0, -1.0}, {3.0, 2.5, 0.0}});
@@ -153,6 +155,7 @@ TEST_F(ScreenSpaceTrace, surfaces_that_are_rough_tilted_or_below_the_eye_take_no
   EXPECT_EQ(trace(tilted, 1, true).hits(), 0u);
 }
 
+// Hard case: reflections.odd_sizes
 TEST_F(ScreenSpaceTrace, half_size_images_have_a_texel_for_each_block_of_odd_pictures) {
   SyntheticScene scene;
   scene.boxes.push_back({{-3.0, 0.0, -1.0}, {3.0, 2.5, 0.0}});

@@ -133,6 +133,7 @@ TEST_F(PlanarReflections, of_half_size_differ_at_edges_only) {
   }
 }
 
+// Hard case: reflections.straight_down
 TEST_F(PlanarReflections, are_right_straight_down) {
   set("ssr.resolution", "full");
   look({0.2, 5.0, -0.4}, -1.57079632679489661923);
@@ -161,6 +162,7 @@ TEST_F(PlanarReflections, are_right_far_from_the_origin_and_at_another_height) {
   EXPECT_LT(difference(there, here).share, 0.001);
 }
 
+// Hard case: reflections.grazing_floor
 TEST_F(PlanarReflections, are_right_where_the_camera_grazes_the_mirror) {
   set("ssr.resolution", "full");
   for (const double degrees : {0.1, 0.3, 1.0, 3.0}) {

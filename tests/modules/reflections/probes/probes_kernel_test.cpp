@@ -194,6 +194,7 @@ TEST_F(ProbesRadiance, shares_are_1_inside_and_0_on_the_faces) {
   }
 }
 
+// Hard case: reflections.outside_probes
 TEST_F(ProbesRadiance, small_boxes_come_first_and_the_global_probe_and_the_sky_last) {
   // Layer i has radiance 2^i.
   const FlatLayers images(device(), 4, 1, std::vector<vec4>{vec4(1.0f), vec4(2.0f), vec4(4.0f), vec4(8.0f)});
@@ -248,6 +249,7 @@ TEST_F(ProbesRadiance, roughness_chooses_the_mip) {
   for (std::size_t i = 0; i < rays.size(); ++i) EXPECT_NEAR(lights[i].x, 3.0f * rays[i].roughness, 0.02f) << i;
 }
 
+// Hard case: reflections.probe_no_size
 TEST_F(ProbesRadiance, probes_without_a_box_are_left_out) {
   EXPECT_EQ(rows({box(dvec3(0.0), {2.0f, 0.0f, 2.0f})}).size(), 0u);
   EXPECT_EQ(rows({box(dvec3(0.0), vec3(-1.0f))}).size(), 0u);

@@ -117,6 +117,7 @@ TEST_F(ProxyMeeting, agrees_with_intersections_in_double) {
 }
 
 // Rays at 0.0003 to 0.6 degrees to the proxy, from both sides.
+// Hard case: reflections.grazing_floor
 TEST_F(ProxyMeeting, agrees_with_intersections_in_double_at_grazing_incidence) {
   ProxyRandom random(26);
   std::vector<MeetCase> cases;
@@ -177,6 +178,7 @@ TEST_F(ProxyMeeting, a_sphere_test_rejects_rays_far_beside_and_behind) {
   }
 }
 
+// Hard case: reflections.parallel_ray
 TEST_F(ProxyMeeting, parallel_rays_backs_and_proxies_behind_the_origin_are_not_met) {
   const SceneProxy wall = facing({0.0, 0.0, -5.0}, {0.0, 0.0, 1.0}, vec2(4.0f));
   const std::vector<MeetCase> cases = {

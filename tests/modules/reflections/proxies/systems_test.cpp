@@ -64,6 +64,7 @@ TEST(ProxySystems, gather_proxies_in_the_order_of_entities) {
   EXPECT_GT(room.tiles().proxies.size(), 3u);
 }
 
+// Hard case: reflections.no_area
 TEST(ProxySystems, count_and_leave_out_proxies_and_rooms_that_cannot_be_placed) {
   ProxyRoom room(6);
   room.world.get<WorldTransform>(room.proxies[1]).matrix[3].x = std::numeric_limits<double>::quiet_NaN();

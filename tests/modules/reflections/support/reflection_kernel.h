@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/frame/transfers/upload.h"
 #include "engine/math/packing.h"
 #include "shaders/reflections/shaders.h"
 #include "tests/modules/reflections/support/synthetic_view.h"

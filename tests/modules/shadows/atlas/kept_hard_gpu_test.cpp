@@ -114,6 +114,7 @@ class FullAtlas : public ShadowKept {
   }
 };
 
+// Hard case: shadows.full_atlas
 TEST_F(FullAtlas, shrinks_faces_says_so_once_and_gives_them_back) {
   yard();
   set("shadows.atlas", "1024");

@@ -12,6 +12,7 @@ namespace {
 /// Lights, cameras, receivers and casters in difficult positions.
 class ShadowPlaces : public test::HardShadows {};
 
+// Hard case: shadows.cone_0, shadows.cone_180
 TEST_F(ShadowPlaces, cones_of_0_119_121_and_180_degrees_cast_right_shadows) {
   yard();
   const Entity bulb = lamp(spot(30.0, 0.05f), dvec3(0.2, 2.0, 0.3), dvec3(0.1, -1.0, -0.1));
@@ -29,6 +30,7 @@ TEST_F(ShadowPlaces, cones_of_0_119_121_and_180_degrees_cast_right_shadows) {
   }
 }
 
+// Hard case: shadows.camera_inside_light, shadows.light_behind_camera
 TEST_F(ShadowPlaces, a_light_within_the_cameras_near_plane_and_a_camera_within_a_light) {
   yard();
   const dvec3 eye(settings.world_from_camera[3]), ahead = -dvec3(settings.world_from_camera[2]);
@@ -44,6 +46,7 @@ TEST_F(ShadowPlaces, a_light_within_the_cameras_near_plane_and_a_camera_within_a
   expect_finite("a centimetre from the light");
 }
 
+// Hard case: shadows.receiver_before_near_plane
 TEST_F(ShadowPlaces, what_is_nearer_to_a_light_than_its_near_plane_is_lit) {
   floor();
   settings = test::look_at(dvec3(0.0, 0.12, 0.1), dvec3(0.0), 96, 54);
@@ -80,6 +83,7 @@ TEST_F(ShadowPlaces, what_is_nearer_to_a_light_than_its_near_plane_is_lit) {
     }
 }
 
+// Hard case: shadows.lamp_in_housing
 TEST_F(ShadowPlaces, a_lamp_inside_its_housing_lights_only_what_its_open_side_looks_at) {
   floor();
   thing(test::quad(3.0f, stone), at(0.0, 0.0, -1.6));
@@ -117,6 +121,7 @@ TEST_F(ShadowPlaces, casters_behind_the_camera_cast_shadows_before_it) {
   }
 }
 
+// Hard case: shadows.node_zero_scale, shadows.node_mirrored, shadows.node_sheared, shadows.degenerate_triangles
 TEST_F(ShadowPlaces, mirrored_sheared_and_flattened_casters_and_degenerate_triangles) {
   floor();
   const dmat4 up = at(0.0, 0.5, 0.0);
@@ -147,6 +152,7 @@ TEST_F(ShadowPlaces, mirrored_sheared_and_flattened_casters_and_degenerate_trian
 }
 
 // Surfaces in one plane: rasterised, their depths are equal but for rounding.
+// Hard case: shadows.receiver_is_blocker
 TEST_F(ShadowPlaces, plates_in_the_plane_of_the_floor_cast_nothing_onto_it) {
   floor();
   Material leaf = exact_material(170, 180, 160, 255, 0);
@@ -172,6 +178,7 @@ TEST_F(ShadowPlaces, plates_in_the_plane_of_the_floor_cast_nothing_onto_it) {
   }
 }
 
+// Hard case: shadows.at_100_km
 TEST_F(ShadowPlaces, a_scene_at_100_km_from_the_origin_has_the_shadows_it_has_there) {
   yard();
   const std::vector<Entity> lamps = {lamp(point(0.1f), dvec3(-1.3, 1.9, 1.1)),

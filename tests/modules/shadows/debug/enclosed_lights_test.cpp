@@ -39,6 +39,7 @@ class EnclosedLights : public ::testing::Test {
   Entity lamp_;
 };
 
+// Hard case: further.light_inside_geometry
 TEST_F(EnclosedLights, are_named_with_the_mesh) {
   enclose(0.1f, {});
   EXPECT_THAT(enclosed_lights(world_), ElementsAre("light \"lamp\" lies inside mesh \"shell\", which casts"));

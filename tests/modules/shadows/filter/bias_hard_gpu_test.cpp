@@ -102,6 +102,7 @@ TEST_F(ShadowBias, a_wall_that_light_grazes_is_lit_and_dark_behind_a_roof) {
   }
 }
 
+// Hard case: shadows.grazing_light
 TEST_F(ShadowBias, a_flat_floor_in_grazing_light_has_no_acne_with_any_filter) {
   floor(12.0f);
   box(dvec3(0.0, 0.5, -11.0), dvec3(0.5));  // outside the picture
@@ -194,6 +195,7 @@ class ThinSheet : public ShadowBias {
   std::vector<Variant> variants;
 };
 
+// Hard case: shadows.sheet_present, shadows.sheet_mirrored, shadows.sheet_double_sided
 TEST_F(ThinSheet, shadows_the_floor_beside_it_in_slanting_light_whichever_side_it_shows) {
   // From 6 degrees above the floor, the shadow reaches 28 mm beyond the sheet's edge at z = −0.2; the edge at z = 0.2
   // casts none.
@@ -218,6 +220,7 @@ TEST_F(ThinSheet, shadows_the_floor_beside_it_in_slanting_light_whichever_side_i
   }
 }
 
+// Hard case: shadows.sheet_no_leak, shadows.sheet_mirrored, shadows.sheet_double_sided
 TEST_F(ThinSheet, leaks_no_light_into_the_gap_below_it) {
   // The camera is inside the gap and looks at the floor near the sheet's edge, under a light straight above.
   const Entity above = lamp(spot(10.0), dvec3(0.0, 2.0, 0.0), dvec3(0.0, -1.0, 0.0), 2048);
@@ -287,6 +290,7 @@ TEST_F(ThinSheet, in_the_air_is_lit_on_one_side_and_dark_on_the_other) {
   EXPECT_GT(judged, std::size(variants)) << "a sheet is seen from its lit side at least";
 }
 
+// Hard case: shadows.normal_quantisation
 TEST_F(ShadowBias, a_wall_in_line_with_the_sun_is_lit_as_without_shadows) {
   const Entity wall = thing(test::quad(1.5f, stone));
   box(dvec3(-3.0, 0.0, 0.3), dvec3(0.2));  // gives the casters' bounds some depth

@@ -93,6 +93,7 @@ TEST_F(ShadowContact, of_a_wall_and_a_floor_is_where_the_wall_stands) {
 }
 
 // A plate that lies on the floor, or touches it by rounding: the map holds the one, the receiver is the other.
+// Hard case: shadows.receiver_is_blocker
 TEST_F(ShadowContact, of_a_plate_in_the_plane_of_the_floor_casts_nothing) {
   SpotRig rig = ShadowContact::rig();
   for (const double height : {-1e-6, 0.0, 1e-6}) {

@@ -13,6 +13,7 @@ class ShadowFilter : public ShadowKernelTest {};
 
 // Bars one texel of the tested mip wide, and a penumbra that only this mip filters: in its texels, half as wide as the
 // kernel.
+// Hard case: shadows.bars
 TEST_F(ShadowFilter, bars_of_one_texel_give_half_the_light_at_every_mip) {
   for (const ProbeSettings settings :
        {ProbeSettings{}, ProbeSettings{.shape = 1}, ProbeSettings{.kernel = 12}, ProbeSettings{.kernel = 16}}) {
@@ -38,6 +39,7 @@ TEST_F(ShadowFilter, bars_of_one_texel_give_half_the_light_at_every_mip) {
   }
 }
 
+// Hard case: shadows.bars
 TEST_F(ShadowFilter, finest_bars_give_half_the_light_at_every_mip_that_knows_its_coverage) {
   for (const ProbeSettings settings : {ProbeSettings{.coverage = 1}, ProbeSettings{.kernel = 12, .coverage = 1}}) {
     for (std::uint32_t mip = 0; mip <= 4; ++mip) {

@@ -16,6 +16,7 @@ class ShadowGrazing : public ShadowKernelTest {};
 
 // Light arrives at up to 89.9 degrees. A pole makes the filters use all mips. It hides the same with and without the
 // floor in the map, so any further darkening comes from the floor shadowing itself.
+// Hard case: shadows.grazing_light, selftest.slope
 TEST_F(ShadowGrazing, a_floor_in_grazing_light_never_shadows_itself) {
   for (const double tilt : {1.2, 1.5}) {
     SpotRig rig = tilted(0.02, tilt, 0.8);

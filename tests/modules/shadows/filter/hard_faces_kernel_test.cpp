@@ -38,6 +38,7 @@ TEST_F(ShadowHardFaces, kernels_at_the_border_of_a_spots_face_see_only_that_face
   }
 }
 
+// Hard case: shadows.node_mirrored
 TEST_F(ShadowHardFaces, a_mirrored_spot_casts_the_same_shadow) {
   SpotRig rig = tilted(3.0, 0.4, 0.5);
   rig.width_m = 0.1;
@@ -77,6 +78,7 @@ struct CubeScene {
 
 // A kernel that leaves its cube face gives the result of one large face: in face +X, at its border with −Z, and at its
 // corner with +Y and −Z, in the cube's axes.
+// Hard case: shadows.penumbra_2_faces, shadows.penumbra_3_faces
 TEST_F(ShadowHardFaces, penumbrae_across_two_and_three_faces_of_a_cube_are_those_of_one_large_face) {
   const glm::dmat3 cube = cube_axes();
   const dvec3 blocker_normal = cube * normalize(dvec3(1.0, 0.2, -0.3));

@@ -13,6 +13,7 @@ using shaders::ShadowProbe;
 
 class ShadowHard : public ShadowKernelTest {};
 
+// Hard case: shadows.sheet_present, shadows.sheet_no_leak
 TEST_F(ShadowHard, a_sheet_3_mm_above_a_floor_shadows_it_without_leaks_and_is_lit_itself) {
   for (const double tilt : {0.0, 0.7, 1.1}) {
     SpotRig rig = tilted(2.0, tilt, 0.35);
@@ -53,6 +54,7 @@ TEST_F(ShadowHard, a_subsurface_sheet_never_shadows_itself) {
   for (const auto& result : rig.look(device(), depths, probes)) EXPECT_EQ(result.visibility, 1.0f);
 }
 
+// Hard case: shadows.normal_quantisation
 TEST_F(ShadowHard, a_surface_in_line_with_the_light_faces_it_whatever_quantisation_says) {
   SpotRig rig;
   const auto depths = draw_face(rig.pose, rig.size, floor_plane());
@@ -66,6 +68,7 @@ TEST_F(ShadowHard, a_surface_in_line_with_the_light_faces_it_whatever_quantisati
   for (const auto& result : rig.look(device(), depths, probes)) EXPECT_EQ(result.visibility, 1.0f);
 }
 
+// Hard case: shadows.receiver_at_light, shadows.receiver_before_near_plane
 TEST_F(ShadowHard, nothing_is_in_shadow_at_the_light_or_nearer_than_the_near_plane) {
   SpotRig rig;
   const auto depths = draw_face(rig.pose, rig.size, plane(dvec3(0.0, 3.9, 0.0), kUp));
@@ -75,6 +78,7 @@ TEST_F(ShadowHard, nothing_is_in_shadow_at_the_light_or_nearer_than_the_near_pla
   for (const auto& result : rig.look(device(), depths, probes)) EXPECT_EQ(result.visibility, 1.0f);
 }
 
+// Hard case: shadows.blocker_near_emitter
 TEST_F(ShadowHard, a_blocker_nearer_than_the_emitter_is_wide_hides_what_it_hides_of_a_disc) {
   SpotRig rig;
   rig.width_m = 1.0;
@@ -122,6 +126,7 @@ TEST_F(ShadowHard, sixteen_bits_shadow_without_acne_at_ten_metres) {
   }
 }
 
+// Hard case: shadows.all_finite
 TEST_F(ShadowHard, bad_numbers_leave_visibility_between_0_and_1) {
   const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
   SpotRig rig;

@@ -21,6 +21,7 @@ class ShadowPenumbrae : public test::HardShadows, public ::testing::WithParamInt
   }
 };
 
+// Hard case: selftest.light_width
 TEST_P(ShadowPenumbrae, of_wide_lights_of_every_kind_are_right_from_both_kinds_of_camera) {
   yard();
   const std::vector<std::pair<const char*, Entity>> lamps = {
@@ -40,6 +41,7 @@ TEST_P(ShadowPenumbrae, of_wide_lights_of_every_kind_are_right_from_both_kinds_o
   }
 }
 
+// Hard case: shadows.penumbra_2_faces, shadows.penumbra_3_faces
 TEST_P(ShadowPenumbrae, across_two_and_three_faces_of_a_cube_are_as_right_as_inside_one) {
   const Entity wall = thing(test::quad(2.5f, stone)), bar = thing(test::box(vec3(0.25f, 0.25f, 0.03f), stone));
   const Entity bulb = lamp(point(0.2f), dvec3(0.0), dvec3(0.0, 0.0, -1.0));
@@ -64,6 +66,7 @@ TEST_P(ShadowPenumbrae, across_two_and_three_faces_of_a_cube_are_as_right_as_ins
   }
 }
 
+// Hard case: shadows.lamp_in_housing
 TEST_P(ShadowPenumbrae, of_a_wide_bulb_inside_its_housing_are_right) {
   floor();
   const double half = 0.06, height = 0.7;
@@ -79,6 +82,7 @@ TEST_P(ShadowPenumbrae, of_a_wide_bulb_inside_its_housing_are_right) {
   EXPECT_EQ(e.leaks, 0u);
 }
 
+// Hard case: shadows.blocker_near_emitter
 TEST_P(ShadowPenumbrae, of_a_blocker_nearer_than_the_emitter_is_wide_are_right) {
   thing(test::quad(2.5f, stone), at(0.0, 0.0, -2.0));
   thing(test::box(vec3(0.08f, 0.08f, 0.005f), stone), at(0.02, 0.01, -0.3));

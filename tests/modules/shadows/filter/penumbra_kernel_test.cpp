@@ -111,6 +111,7 @@ TEST_F(ShadowPenumbra, is_as_wide_as_the_disc_makes_it_whatever_the_map) {
 
 // Mips hold the nearest depth of a block, so shadows grow by up to half a texel of the mip that filters them, which is
 // an eighth of the penumbra.
+// Hard case: selftest.filter, selftest.light_width
 TEST_F(ShadowPenumbra, follows_the_disc_within_the_texel_of_its_mip) {
   EdgeScene s;
   s.size = 512;

@@ -93,6 +93,7 @@ TEST_F(ShadowSun, shadows_do_not_crawl_while_the_camera_moves_by_less_than_a_tex
   }
 }
 
+// Hard case: further.sun_zenith, further.sun_nadir, further.sun_horizon
 TEST_F(ShadowSun, along_the_axes_casts_right_shadows) {
   yard();
   const Entity day = lamp(sun(), dvec3(0.0));

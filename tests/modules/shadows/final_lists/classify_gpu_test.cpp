@@ -13,6 +13,7 @@ using ClassifyShadows = test::ClassifyShadowsTest;
 using Way = test::ClassifyWay;
 struct ClassifyMaps : test::ClassifyShadowsWays {};
 
+// Hard case: selftest.classification
 TEST_P(ClassifyMaps, never_contradict_the_filter) { run(); }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -300,6 +300,7 @@ ClassifyScene random_classify_scene(std::uint32_t seed) {
   return scene;
 }
 
+// Hard case: selftest.classification
 TEST_F(ClassifyKernels, contradict_neither_a_search_of_the_maps_nor_the_filter) {
   const ClassifyOptions options;
   std::array<ClassifyYield, kClassifyLights> yields{};
@@ -361,6 +362,7 @@ TEST_F(ClassifyKernels, make_pairs_of_all_candidates_when_classification_is_off)
   EXPECT_EQ(c.commands[0].pairs[GLOAM_PAIRS_CROSSING].w, with_pixels) << "those of the cube";
 }
 
+// Hard case: shadows.full_slots
 TEST_F(ClassifyKernels, find_no_room_for_a_pair_in_a_full_buffer) {
   const ClassifyScene scene = random_classify_scene(4);
   const Classified all = classify(scene);

@@ -13,6 +13,7 @@ using test::Dice;
 using test::ReadFinalLists;
 using DeferredShadowsCases = test::DeferredShadowsTest;
 
+// Hard case: shadows.size_1x1, shadows.size_7x5, shadows.size_33x31
 TEST_F(DeferredShadowsCases, of_pictures_smaller_than_a_tile_and_of_odd_sizes_are_the_same) {
   put_pillars();
   put_three_lights();
@@ -25,6 +26,8 @@ TEST_F(DeferredShadowsCases, of_pictures_smaller_than_a_tile_and_of_odd_sizes_ar
   }
 }
 
+// Hard case: shadows.lights_0, shadows.lights_1, shadows.lights_31, shadows.lights_32, shadows.lights_33
+// Hard case: shadows.one_place
 TEST_F(DeferredShadowsCases, of_any_number_of_lights_in_one_place_are_the_same) {
   put_pillars();
   int there = 0;

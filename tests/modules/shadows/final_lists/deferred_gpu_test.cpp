@@ -13,6 +13,7 @@ using test::Dice;
 using test::ReadFinalLists;
 using DeferredShadows = test::DeferredShadowsTest;
 
+// Hard case: selftest.deferred_monolithic
 TEST_F(DeferredShadows, of_random_scenes_are_the_same) {
   const int count = test::scaled(50);
   for (int seed = 0; seed < count && !HasFailure(); ++seed) {

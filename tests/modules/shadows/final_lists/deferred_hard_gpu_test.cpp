@@ -77,6 +77,7 @@ class DeferredShadowsHard : public test::DeferredShadowsTest {
   }
 };
 
+// Hard case: shadows.camera_inside_light, shadows.light_at_near_plane, further.camera_inside_emitter
 TEST_F(DeferredShadowsHard, a_camera_inside_a_light_and_lights_about_the_near_plane) {
   put_yard();
   settings = test::look_at(dvec3(0.3, 1.0, 2.0), dvec3(0.0, 0.3, 0.0), 64, 48);
@@ -95,6 +96,8 @@ TEST_F(DeferredShadowsHard, a_camera_inside_a_light_and_lights_about_the_near_pl
   }
 }
 
+// Hard case: shadows.position_not_finite, shadows.intensity_not_finite, shadows.range_not_finite
+// Hard case: shadows.negative_intensity, shadows.all_finite
 TEST_F(DeferredShadowsHard, lights_without_sense_beside_one_that_has) {
   put_yard();
   put_lamp(dvec3(0.4, 1.4, 0.9));
@@ -126,6 +129,7 @@ TEST_F(DeferredShadowsHard, lights_without_sense_beside_one_that_has) {
   expect_sound("and a sun");
 }
 
+// Hard case: shadows.million_candela
 TEST_F(DeferredShadowsHard, a_million_candela_at_a_centimetre) {
   put_yard();
   put_lamp(dvec3(0.0, 0.01, 0.9));
@@ -135,6 +139,7 @@ TEST_F(DeferredShadowsHard, a_million_candela_at_a_centimetre) {
   expect_sound("bright");
 }
 
+// Hard case: shadows.lights_1023, shadows.lights_1024, shadows.lights_1025
 TEST_F(DeferredShadowsHard, a_thousand_lights_in_one_tile) {
   put(plane_, flat(0.0) * glm::scale(dmat4(1.0), dvec3(3.0)));
   put(shapes_[0], glm::scale(at(0.1, 0.5, 0.0), dvec3(0.3, 0.05, 0.3)));
@@ -155,6 +160,7 @@ TEST_F(DeferredShadowsHard, a_thousand_lights_in_one_tile) {
   EXPECT_GT(found.counters.unshadowed, 800u);
 }
 
+// Hard case: shadows.all_sky, shadows.sky_and_near
 TEST_F(DeferredShadowsHard, nothing_but_sky_and_sky_beside_near_things) {
   put_lamp(dvec3(0.3, 0.4, 0.6));
   Light made = sun(0.05f);
@@ -176,6 +182,7 @@ TEST_F(DeferredShadowsHard, nothing_but_sky_and_sky_beside_near_things) {
   EXPECT_GT(some.counters.tiles, 3u);
 }
 
+// Hard case: shadows.camera_orthographic, shadows.camera_rolled, shadows.near_to_far
 TEST_F(DeferredShadowsHard, orthographic_rolled_and_wide_cameras) {
   put_yard();
   put_lamp(dvec3(0.4, 1.4, 0.9));
@@ -199,6 +206,7 @@ TEST_F(DeferredShadowsHard, orthographic_rolled_and_wide_cameras) {
   expect_sound("near and far");
 }
 
+// Hard case: shadows.at_100_km
 TEST_F(DeferredShadowsHard, a_scene_100_km_from_the_origin) {
   for (std::uint32_t seed = 0; seed < 6; ++seed) {
     const std::string what = "seed " + std::to_string(seed);
@@ -219,6 +227,7 @@ TEST_F(DeferredShadowsHard, a_scene_100_km_from_the_origin) {
   }
 }
 
+// Hard case: shadows.node_zero_scale, shadows.node_mirrored, shadows.node_sheared
 TEST_F(DeferredShadowsHard, flat_mirrored_and_sheared_nodes_and_subsurface_things) {
   put_room();
   put_lamp(dvec3(0.4, 1.4, 0.9));
@@ -238,6 +247,7 @@ TEST_F(DeferredShadowsHard, flat_mirrored_and_sheared_nodes_and_subsurface_thing
   }
 }
 
+// Hard case: shadows.full_atlas
 TEST_F(DeferredShadowsHard, a_full_atlas) {
   put_yard();
   Dice dice(12);

@@ -16,6 +16,7 @@ using DeferredShadows = test::DeferredShadowsTest;
 /// Buffers for a share of what a frame without limits asks for.
 class DeferredShadowsLimits : public DeferredShadows, public ::testing::WithParamInterface<const char*> {};
 
+// Hard case: shadows.full_slots, shadows.full_visibility
 TEST_P(DeferredShadowsLimits, change_no_picture_at_any_share_of_the_need) {
   const std::string bits = GetParam();
   set("shadows.visibility_bits", bits);

@@ -67,6 +67,7 @@ class DeferredShadowsPath : public test::DeferredShadowsTest {
   std::vector<Entity> movers_, joints_;
 };
 
+// Hard case: selftest.deferred_monolithic
 TEST_F(DeferredShadowsPath, of_300_frames_is_the_same_in_each) {
   build();
   double slots = 0.0, classified = 0.0;

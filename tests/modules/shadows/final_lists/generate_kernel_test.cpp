@@ -402,6 +402,7 @@ TEST_F(GenerateShadows, give_each_pair_what_its_pixels_see) {
   }
 }
 
+// Hard case: shadows.full_visibility
 TEST_F(GenerateShadows, without_room_write_nothing_and_say_so) {
   const RoomLights lights = make_lights();
   test::ShadowMaps maps(device(), 2 * kFace);

@@ -170,6 +170,7 @@ TEST_F(FinishLists, keep_what_some_pixel_needs_in_order_and_name_tiles_without_r
   }
 }
 
+// Hard case: shadows.lights_1024
 TEST_F(FinishLists, of_1024_lights_in_a_tile_lose_none) {
   std::mt19937 random(5);
   OpenLists lists{.size = {2, 1}, .directional_count = 16, .tiles = {2, OpenList{}}};

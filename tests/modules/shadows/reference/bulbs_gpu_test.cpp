@@ -63,6 +63,7 @@ TEST_F(LampParts, bulbs_give_the_light_that_rays_give) {
   }
 }
 
+// Hard case: further.light_inside_geometry
 TEST_F(LampParts, a_ball_that_does_not_shine_takes_the_light) {
   thing(test::ball(0.14f, stone), glm::translate(dmat4(1.0), kPlace));
   const Light light = light_of(bulb_lamp);

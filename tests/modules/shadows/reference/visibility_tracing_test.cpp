@@ -248,6 +248,7 @@ TEST(VisibilityTracing, a_world_without_lights_gives_nothing) {
   EXPECT_EQ(traced.noise, 0.0);
 }
 
+// Hard case: further.light_inside_geometry
 TEST(VisibilityTracing, a_dark_ball_round_a_lamp_hides_it_however_small) {
   for (const double radius : {1e-3, 0.045, 0.5}) {
     VisibilityScene scene;
@@ -358,6 +359,7 @@ TEST(VisibilityTracing, a_sheet_lets_all_of_the_light_through) {
   EXPECT_TRUE(std::ranges::all_of(traced.visibility, [](std::uint8_t seen) { return seen == 255; }));
 }
 
+// Hard case: shadows.sheet_present
 TEST(VisibilityTracing, a_sheet_three_millimetres_above_the_floor_casts_its_shadow) {
   VisibilityScene scene;
   scene.sheet(0.0, {-20.0, 0.0, -20.0}, {20.0, 0.0, 20.0});

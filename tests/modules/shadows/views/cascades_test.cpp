@@ -75,6 +75,7 @@ TEST(CascadeSplits, grow_outwards_and_end_at_the_far_end) {
   EXPECT_LT(cascade_splits(-5.0, 100.0, 2, true)[0], 100.0) << "orthographic cameras may see behind themselves";
 }
 
+// Hard case: shadows.camera_off_centre
 TEST(CascadeSpheres, enclose_their_slices_of_every_camera) {
   std::vector<ViewSettings> cameras{camera_at({1, 2, 3}, 0.5, 0.3, 1.2), camera_at({1, 2, 3}, -2.0, -1.2)};
   cameras.push_back(cameras[0]);

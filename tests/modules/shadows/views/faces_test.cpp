@@ -197,6 +197,7 @@ TEST(ShadowFaces, what_is_unprojected_projects_back_far_from_the_origin_too) {
   }
 }
 
+// Hard case: shadows.cone_120
 TEST(ShadowFaces, cones_up_to_120_degrees_have_one_face_and_wider_ones_a_cube) {
   for (const float cone : {-5.0f, 0.0f, 1.0f, 45.0f, 119.0f, 120.0f}) {
     const LocalShadow shadow = local_shadow(spot(cone), dmat4(1.0), kRim);

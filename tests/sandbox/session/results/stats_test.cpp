@@ -103,6 +103,7 @@ TEST(Stats, a_pass_has_a_row_for_each_view_and_other_views_are_named) {
   EXPECT_EQ(stats["passes"][2]["median_ms"], 1.5);
 }
 
+// Hard case: program.first_frame
 TEST(Stats, the_first_of_several_frames_is_left_out_of_the_times) {
   const auto stats = stats_of({frame(1000.0), frame(2.0), frame(4.0), frame(3.0)});
   EXPECT_EQ(stats["frames"], 4);
@@ -122,6 +123,7 @@ TEST(Stats, a_pass_is_judged_by_the_frames_it_ran_in) {
   EXPECT_EQ(stats["passes"][2]["draws"], 3);
 }
 
+// Hard case: program.nan_pixels
 TEST(Stats, pixels_that_are_not_numbers_are_counted_once) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const float infinity = std::numeric_limits<float>::infinity();
@@ -151,6 +153,7 @@ TEST(Stats, count_overlapping_frames_from_end_to_end) {
   EXPECT_DOUBLE_EQ(samples[3].wall_ms(), 5.0) << "a pause between frames is in none";
 }
 
+// Hard case: passes.bytes_not_measured
 TEST(Stats, hold_no_bytes_that_are_not_measured) {
   for (const auto& row : stats_of({frame(4.0)})["memory"]) EXPECT_FALSE(row.contains("cpu_bytes"));
 }

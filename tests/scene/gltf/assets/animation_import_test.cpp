@@ -55,6 +55,7 @@ TEST(AnimationImport, reads_keys_of_every_interpolation) {
   EXPECT_EQ(clips[2].channels[0].values.size(), 18u);
 }
 
+// Hard case: scene.same_target
 TEST(AnimationImport, of_clips_that_move_the_same_only_the_first_keeps_its_channel) {
   GltfText gltf;
   gltf.add("nodes", "{}");

@@ -82,12 +82,14 @@ TEST(KeyImport, other_members_of_extras_are_ignored) {
   EXPECT_EQ(fault_of_node(R"({"extras": null})"), "");
 }
 
+// Hard case: scene.wrong_type
 TEST(KeyImport, a_wrong_type_names_file_node_key_and_value) {
   EXPECT_EQ(fault_of_node(R"({"name": "torch-03", "extensions": {"KHR_lights_punctual": {"light": 0}},
                               "extras": {"gloam.light.width": "wide"}})"),
             "scene.gltf: node 0 \"torch-03\": gloam.light.width must be a number ≥ 0 m, is \"wide\"");
 }
 
+// Hard case: scene.out_of_range
 TEST(KeyImport, a_value_out_of_range_or_null_is_refused) {
   EXPECT_THAT(fault_of_node(R"({"extensions": {"KHR_lights_punctual": {"light": 0}},
                                 "extras": {"gloam.light.width": -1}})"),
@@ -95,6 +97,7 @@ TEST(KeyImport, a_value_out_of_range_or_null_is_refused) {
   EXPECT_THAT(fault_of_node(R"({"extras": {"gloam.closeup": null}})"), HasSubstr("must be true or false, is null"));
 }
 
+// Hard case: scene.unknown_key
 TEST(KeyImport, an_unknown_key_is_refused_with_the_nearest_known_one) {
   EXPECT_EQ(fault_of_node(R"({"name": "a", "extras": {"gloam.closeups": true}})"),
             "scene.gltf: node 0 \"a\": gloam.closeups is not a known key, did you mean gloam.closeup?");
@@ -102,6 +105,7 @@ TEST(KeyImport, an_unknown_key_is_refused_with_the_nearest_known_one) {
             "scene.gltf: node 0: gloam.zzzzzzzzzzzzzz is not a known key");
 }
 
+// Hard case: scene.wrong_element
 TEST(KeyImport, a_key_on_the_wrong_element_is_refused) {
   EXPECT_THAT(fault_of_node(R"({"extras": {"gloam.light.width": 1}})"),
               HasSubstr("node 0: gloam.light.width belongs on a node with a light"));
@@ -188,6 +192,7 @@ TEST(KeyImport, a_finishers_fault_is_the_files) {
   EXPECT_EQ(fault_of(gltf, registry), "scene.gltf: no light is named \"moon\"; there are none");
 }
 
+// Hard case: scene.required_extension, scene.unknown_extension
 TEST(Extensions, unknown_ones_are_told_once_and_required_ones_refused) {
   GltfText gltf;
   gltf.set("extensionsUsed", R"(["KHR_unheard_of", "KHR_unheard_of", "KHR_texture_transform", "KHR_lights_punctual"])");

@@ -11,7 +11,7 @@
 
 #include "engine/math/types.h"
 
-namespace gloam::test {
+namespace gloam {
 
 /// The spot that one bright pixel of a dark picture becomes.
 class Spot {
@@ -126,4 +126,4 @@ struct FittedLine {
   return corners;
 }
 
-}  // namespace gloam::test
+}  // namespace gloam

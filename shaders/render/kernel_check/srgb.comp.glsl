@@ -5,7 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/common/math.glsl"
 
-// The sRGB transfer functions of values in [0, 1], for the test that compares them with engine/math/srgb.h.
+// The sRGB transfer functions of values in [0, 1], for the check that compares them with engine/math/srgb.h.
 layout(local_size_x = 64) in;
 
 layout(set = 0, binding = 0, scalar) readonly buffer Values { vec3 values[]; };

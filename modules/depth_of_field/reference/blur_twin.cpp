@@ -1,19 +1,15 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#pragma once
+#include "modules/depth_of_field/reference/blur_twin.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <functional>
-#include <vector>
 
-#include "tests/modules/depth_of_field/support/dof_chain.h"
+namespace gloam {
+namespace {
 
-namespace gloam::test {
-
-/// The passes in double precision for every texel, without tiles and lists. Images are rounded to half floats where the
-/// passes store them.
 class DofTwin {
  public:
   explicit DofTwin(const DofInput& in) : in_(in), scale_(static_cast<int>(in.knobs.scale())) {
@@ -242,4 +238,8 @@ class DofTwin {
   int rows_ = 0;
 };
 
-}  // namespace gloam::test
+}  // namespace
+
+std::vector<dvec4> dof_twin_light(const DofInput& in) { return DofTwin(in).light(); }
+
+}  // namespace gloam

@@ -1,69 +1,22 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#pragma once
+#include "modules/particles/reference/particle_twin.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
-#include <vector>
+#include <numbers>
 
-#include "engine/math/types.h"
-#include "shaders/particles/particles_shared.h"
-
-/// Particles in double precision, for tests.
-namespace gloam::test {
-
-struct TwinParticle {
-  dvec3 position = dvec3(0.0);  ///< camera-relative
-  double radius_m = 0.0;
-  double angle = 0.0;
-  double opacity = 0.0;  ///< without the fade at the near plane
-  double life = 0.0;
-  double age_s = 0.0;
-};
-
-/// Jarzynski and Olano 2020, pcg4d.
-[[nodiscard]] inline std::array<std::uint32_t, 4> twin_lot(std::uint32_t seed, std::uint32_t number,
-                                                           std::uint32_t lot) {
-  std::array<std::uint32_t, 4> v = {number, seed, lot, number ^ seed};
-  for (std::uint32_t& word : v) word = word * 1664525u + 1013904223u;
-  const auto mix = [&v] {
-    v[0] += v[1] * v[3];
-    v[1] += v[2] * v[0];
-    v[2] += v[0] * v[1];
-    v[3] += v[1] * v[2];
-  };
-  mix();
-  for (std::uint32_t& word : v) word ^= word >> 16;
-  mix();
-  return v;
-}
-
-[[nodiscard]] inline double unit_of(std::uint32_t word) { return static_cast<double>(word >> 8) / 16777216.0; }
+namespace gloam {
+namespace {
 
 /// A period of this wave is two parabolas.
-[[nodiscard]] inline double twin_wave(double x) {
+double twin_wave(double x) {
   const double share = x - std::floor(x);
   return share < 0.5 ? -16.0 * share * (0.5 - share) : 16.0 * (share - 0.5) * (1.0 - share);
 }
 
-/// The turbulence over its greatest speed.
-[[nodiscard]] inline dvec3 twin_swirl(const dvec3& at, double time) {
-  constexpr double kSlowTurns[3] = {7.0, -5.0, 6.0}, kFastTurns[3] = {8.0, 11.0, -10.0};
-  constexpr double kSlow[3] = {0.37, 0.71, 0.13}, kFastA[3] = {0.5, 0.1, 0.8}, kFastB[3] = {0.9, 0.2, 0.6};
-  dvec3 sum(0.0);
-  for (int i = 0; i < 3; ++i) {
-    const double next = at[(i + 1) % 3], other = at[(i + 2) % 3];
-    sum[i] = 0.34 * (twin_wave(next + kSlowTurns[i] * time) + twin_wave(other + kSlow[i] - 4.0 * time)) +
-             0.16 * (twin_wave(2.17 * next + kFastA[i] - 9.0 * time) +
-                     twin_wave(2.17 * other + kFastB[i] + kFastTurns[i] * time));
-  }
-  return sum;
-}
-
 /// Way without turbulence: the equation of motion dv/dt = drag · (rise − v), integrated in small steps.
-[[nodiscard]] inline dvec3 integrated_way(const shaders::ParticleEmitterRow& e, const dvec3& velocity, double age) {
+dvec3 integrated_way(const shaders::ParticleEmitterRow& e, const dvec3& velocity, double age) {
   const double drag = static_cast<double>(e.drag);
   const dvec3 rise(0.0, static_cast<double>(e.rise), 0.0);
   const int steps = 40 + static_cast<int>(20.0 * drag * age);
@@ -78,17 +31,44 @@ struct TwinParticle {
   return way;
 }
 
-/// Particle k of the emitter. nudge: added to the position wherever the flow is looked up.
-[[nodiscard]] inline TwinParticle twin_particle(const shaders::ParticleEmitterRow& e, std::uint32_t k,
-                                                const dvec3& nudge = dvec3(0.0)) {
+}  // namespace
+
+std::array<std::uint32_t, 4> twin_lot(std::uint32_t seed, std::uint32_t number, std::uint32_t lot) {
+  std::array<std::uint32_t, 4> v = {number, seed, lot, number ^ seed};
+  for (std::uint32_t& word : v) word = word * 1664525u + 1013904223u;
+  const auto mix = [&v] {
+    v[0] += v[1] * v[3];
+    v[1] += v[2] * v[0];
+    v[2] += v[0] * v[1];
+    v[3] += v[1] * v[2];
+  };
+  mix();
+  for (std::uint32_t& word : v) word ^= word >> 16;
+  mix();
+  return v;
+}
+
+dvec3 twin_swirl(const dvec3& at, double time) {
+  constexpr double kSlowTurns[3] = {7.0, -5.0, 6.0}, kFastTurns[3] = {8.0, 11.0, -10.0};
+  constexpr double kSlow[3] = {0.37, 0.71, 0.13}, kFastA[3] = {0.5, 0.1, 0.8}, kFastB[3] = {0.9, 0.2, 0.6};
+  dvec3 sum(0.0);
+  for (int i = 0; i < 3; ++i) {
+    const double next = at[(i + 1) % 3], other = at[(i + 2) % 3];
+    sum[i] = 0.34 * (twin_wave(next + kSlowTurns[i] * time) + twin_wave(other + kSlow[i] - 4.0 * time)) +
+             0.16 * (twin_wave(2.17 * next + kFastA[i] - 9.0 * time) +
+                     twin_wave(2.17 * other + kFastB[i] + kFastTurns[i] * time));
+  }
+  return sum;
+}
+
+TwinParticle twin_particle(const shaders::ParticleEmitterRow& e, std::uint32_t k, const dvec3& nudge) {
   const auto a = twin_lot(e.seed, e.oldest + k, 0), b = twin_lot(e.seed, e.oldest + k, 1);
   TwinParticle p;
   p.age_s = static_cast<double>(e.oldest_age_s) - k * static_cast<double>(e.interval_s);
   const dvec3 birth = (unit_of(a[0]) - 0.5) * dvec3(e.box_x) + (unit_of(a[1]) - 0.5) * dvec3(e.box_y) +
                       (unit_of(a[2]) - 0.5) * dvec3(e.box_z);
   const double cosine = 1.0 + unit_of(b[0]) * (static_cast<double>(e.cos_spread) - 1.0);
-  const double sine = std::sqrt(std::max(1.0 - cosine * cosine, 0.0)),
-               about = 2.0 * 3.14159265358979323846 * unit_of(b[1]);
+  const double sine = std::sqrt(std::max(1.0 - cosine * cosine, 0.0)), about = 2.0 * std::numbers::pi * unit_of(b[1]);
   const dvec3 direction =
       cosine * dvec3(e.axis) + sine * (std::cos(about) * dvec3(e.across_x) + std::sin(about) * dvec3(e.across_y));
   const dvec3 velocity = direction * (static_cast<double>(e.speed) * (0.6 + 0.8 * unit_of(b[2])));
@@ -111,8 +91,8 @@ struct TwinParticle {
   p.position = dvec3(e.origin) + birth + integrated_way(e, velocity, p.age_s) + drift;
   p.radius_m = 0.5 * static_cast<double>(e.size_m) * (0.75 + 0.5 * unit_of(a[3])) *
                (1.0 + p.life * (static_cast<double>(e.growth) - 1.0));
-  p.angle = 2.0 * 3.14159265358979323846 * unit_of(b[3]) +
-            static_cast<double>(e.spin) * p.age_s * (2.0 * unit_of(b[2]) - 1.0);
+  p.angle =
+      2.0 * std::numbers::pi * unit_of(b[3]) + static_cast<double>(e.spin) * p.age_s * (2.0 * unit_of(b[2]) - 1.0);
   const auto smooth = [](double x) {
     const double t = std::clamp(x, 0.0, 1.0);
     return t * t * (3.0 - 2.0 * t);
@@ -122,4 +102,4 @@ struct TwinParticle {
   return p;
 }
 
-}  // namespace gloam::test
+}  // namespace gloam
