@@ -50,7 +50,7 @@ void add_frame_options(CLI::App& app, Options& options, RawTexts& raw) {
   app.add_option("--time", raw.time, "Simulated time of the first frame (default 0)")->type_name("SECONDS");
   app.add_option("--dt", raw.dt, "Simulated time from frame to frame (default 1/60)")->type_name("SECONDS");
   app.add_option("--seed", raw.seed,
-                 "Seed of random effects (default 1); this version has none, and pictures do not depend on it")
+                 "Seed of random effects (default 1); this version has none, says so, and pictures do not depend on it")
       ->type_name("N");
   app.add_option("--set", options.assignments, "Set a knob; may be given several times")
       ->type_name("KNOB=VALUE")
@@ -190,6 +190,13 @@ std::vector<CommandApp> add_commands(CLI::App& root, Options& options, RawTexts&
                    "Source tree whose shaders, where they differ from those of the program's own tree, are tested in "
                    "place of the program's")
       ->type_name("FOLDER");
+  CLI::App* compare = add(Command::compare, "compare", "Print how much a picture differs from another one");
+  compare->add_option("PICTURES", options.names, "The picture and its reference: two PNG or JPEG files of one size")
+      ->required()
+      ->expected(2);
+  compare->add_option("--most", options.most_flip, "Fail if the mean of FLIP is above this")
+      ->type_name("FLIP")
+      ->check(CLI::Range(0.0, 1.0));
   CLI::App* knobs = add(Command::knobs, "knobs", "List the knobs with their values, units and meanings");
   CLI::Option* json = knobs->add_flag("--json", options.json, "Print JSON");
   knobs->add_flag("--markdown", options.markdown, "Print the page docs/knobs.md: the defaults")->excludes(json);
@@ -292,6 +299,7 @@ Status check_texts(Options& options, const RawTexts& raw) {
   options.scale_given = raw.scale.has_value();
   if (raw.time) GLOAM_TRY(read_seconds("--time", *raw.time, options.time_s));
   if (raw.dt) GLOAM_TRY(read_seconds("--dt", *raw.dt, options.dt_s));
+  options.seed_given = raw.seed.has_value();
   if (raw.seed) GLOAM_TRY(read_seed(*raw.seed, options.seed));
   if (raw.shard) {
     if (options.scene_list.empty()) return usage("--shard needs --list FILE");
@@ -425,7 +433,7 @@ Result<std::variant<Options, PrintAndLeave>> parse_options(std::span<const std::
     options.command = candidate.command;
   }
   if (chosen == nullptr)
-    return usage("a command is needed: play, render, inspect, bake, cost, bench, selftest, scenes or knobs");
+    return usage("a command is needed: play, render, inspect, bake, cost, bench, selftest, compare, scenes or knobs");
   if (options.command == Command::play && chosen->count("--frames") == 0) options.frames = 0;
   if (options.command == Command::play && !(options.stats.empty() && options.trace.empty())) options.scale = 1.0;
   options.fixed_step = options.command != Command::play || chosen->count("--dt") > 0;

@@ -13,7 +13,7 @@
 
 namespace gloam {
 
-enum class Command { play, render, inspect, bake, cost, bench, selftest, scenes, knobs };
+enum class Command { play, render, inspect, bake, cost, bench, selftest, compare, scenes, knobs };
 
 struct PixelPosition {
   std::uint32_t x = 0;
@@ -52,6 +52,7 @@ struct Options {
   double dt_s = 1.0 / 60.0;
   bool fixed_step = true;  ///< false for play without --dt: the scene follows the wall clock
   std::uint64_t seed = 1;
+  bool seed_given = false;
   std::vector<std::string> assignments;  ///< "KNOB=VALUE", in order
   std::string view = "none";
   std::string out;  ///< empty: the command's default
@@ -83,7 +84,8 @@ struct Options {
   std::vector<std::string> merge;  ///< cost: folders of sweeps
   /// cost with scene_list: the other given options, as arguments that go before those of each scene of the list.
   std::vector<std::string> shared_arguments;
-  std::vector<std::string> names;  ///< bench
+  std::vector<std::string> names;  ///< bench; compare: the picture and its reference
+  double most_flip = 1.0;          ///< compare
   std::string json_file;           ///< bench
   bool list = false;               ///< bench, selftest
   bool strict = false;             ///< bench

@@ -21,6 +21,11 @@ mkdir -p "$folder/lib" "$folder/licences"
 install -m 755 build/bin/gloam "$folder/gloam"
 strip "$folder/gloam"
 install -m 755 scripts/device_report.sh "$folder/device_report.sh"
+# Pictures of the built-in scenes by lavapipe, which device_report.sh compares a device's own with.
+mkdir -p "$folder/pictures"
+for scene in $(build/bin/gloam scenes | awk '{print $1}'); do
+  build/bin/gloam render "$scene" --device llvmpipe --size 640x360 --frames 8 --quiet --out "$folder/pictures/${scene#builtin:}.png"
+done
 cp LICENSE* "$folder/" 2>/dev/null || true
 
 # The C library and the dynamic loader belong to the machine.

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: The gloam authors
 # SPDX-License-Identifier: MIT
-# Writes one folder that says how gloam works on this machine's device: the self-test, a picture of every built-in scene,
-# and the benchmarks. usage: device_report.sh OUT [DEVICE]
+# Writes one folder that says how gloam works on this machine's device: the self-test, a picture of every built-in scene
+# and how much it differs from the stored one, and the benchmarks. usage: device_report.sh OUT [DEVICE]
 set -uo pipefail
 [ $# -ge 1 ] || {
   echo "usage: device_report.sh OUT [DEVICE]" >&2
@@ -31,6 +31,8 @@ for scene in $("$gloam" scenes | awk '{print $1}'); do
   name=${scene#builtin:}
   part "picture_$name" timeout 60 "$gloam" render "$scene" --device "$device" --size 640x360 --frames 8 \
     --out "$out/pictures/$name.png" --stats "$out/pictures/$name.json"
+  [ ! -f "$here/pictures/$name.png" ] ||
+    part "compare_$name" "$gloam" compare "$out/pictures/$name.png" "$here/pictures/$name.png" --most 0.03
 done
 part validation timeout 60 "$gloam" render builtin:dusk --device "$device" --size 320x180 --frames 3 --validate \
   --out "$out/pictures/validated.png"

@@ -326,6 +326,7 @@ struct DeviceInfo {
   bool threads_in_turn = false;
   std::uint32_t subgroup_size = 0;      ///< threads
   std::uint64_t max_storage_range = 0;  ///< largest size of one storage buffer binding, in bytes
+  std::uint32_t subpixel_bits = 8;  ///< corners of triangles are moved to a grid of 2^bits places a pixel; 4 or more
 };
 
 /// Requirements of an image or a buffer on the memory block that it is placed in.

@@ -40,6 +40,9 @@ struct VulkanOptions {
   PushDescriptors push_descriptors = PushDescriptors::automatic;
   /// Replaces DeviceInfo::threads_in_turn, so that tests run the kernel variants of another kind of device.
   std::optional<bool> threads_in_turn;
+  /// Whether shaders with many paths through a loop are compiled in the form that suits compilers which walk all of
+  /// them. Empty: where the compiler is measured to do so.
+  std::optional<bool> split_selections;
 };
 
 /// Fails with ErrorKind::no_device if no device fits; the error lists the devices found.

@@ -56,6 +56,8 @@ Status run_command(const CommandContext& context) {
       return run_bench(context);
     case Command::selftest:
       return run_selftest_command(context);
+    case Command::compare:
+      return run_compare(context);
     case Command::knobs:
       return run_knobs(context);
     case Command::scenes:
@@ -76,6 +78,9 @@ Status run(std::span<const std::string> arguments, Console& console, std::shared
   const std::string log_file = environment_text("GLOAM_LOG").value_or("");
   const auto log = make_program_log(console, {.quiet = options.quiet, .file = log_file});
   if (!log) return log.error();
+  if (options.seed_given) {
+    (*log)->warning("--seed changes nothing: no effect of this version is random (gloam.grass.seed seeds grass)");
+  }
   Status status = run_command({.options = options, .console = console, .log = **log, .device = std::move(device)});
   if (const std::string captured = console.captured(); !captured.empty())
     (*log)->debug("libraries printed: " + captured);

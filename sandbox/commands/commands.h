@@ -29,6 +29,7 @@ struct CommandContext {
 [[nodiscard]] Status run_cost(const CommandContext& context);
 [[nodiscard]] Status run_bench(const CommandContext& context);
 [[nodiscard]] Status run_selftest_command(const CommandContext& context);
+[[nodiscard]] Status run_compare(const CommandContext& context);
 [[nodiscard]] Status run_knobs(const CommandContext& context);
 [[nodiscard]] Status run_scenes(const CommandContext& context);
 

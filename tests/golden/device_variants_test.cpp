@@ -45,6 +45,14 @@ TEST_P(DeviceVariants, kernels_for_threads_together_draw_the_picture_of_those_fo
   EXPECT_EQ(draw(options).rgba, in_turn.rgba);
 }
 
+TEST_P(DeviceVariants, split_shaders_draw_the_picture_of_whole_ones) {
+  gpu::VulkanOptions options = test_device_options();
+  options.split_selections = false;
+  const Picture whole = draw(options);
+  options.split_selections = true;
+  EXPECT_EQ(draw(options).rgba, whole.rgba);
+}
+
 INSTANTIATE_TEST_SUITE_P(Scenes, DeviceVariants,
                          testing::Values("builtin:many_lights", "builtin:shadows", "builtin:closeups"),
                          [](const auto& scene) { return std::string(scene.param).substr(8); });

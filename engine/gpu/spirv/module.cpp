@@ -95,9 +95,6 @@ class Parser {
         return constant_composite(o);
       case spv::OpVariable:
         return variable(o);
-      case spv::OpSelectionMerge:
-        ++module_.selections;
-        return true;
       default:
         return use(op, o);
     }

@@ -111,7 +111,6 @@ struct Module {
   std::vector<std::uint32_t> spec_constants;  ///< ids of the scalar specialisation constants, in order
   bool has_entry = false;
   std::uint32_t execution_model = 0;
-  std::uint32_t selections = 0;
   std::array<std::uint32_t, 3> local_size = {0, 0, 0};
   /// Ids of the constants that give the local size; 0 where it is a literal.
   std::array<std::uint32_t, 3> local_size_ids = {0, 0, 0};

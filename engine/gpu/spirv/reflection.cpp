@@ -195,7 +195,6 @@ Result<SpirvReflection> reflect_spirv(const ShaderCode& code) {
   const std::optional<ShaderStage> stage = module.has_entry ? stage_of(module.execution_model) : std::nullopt;
   if (!stage) return Error{ErrorKind::input, who + " has no entry point \"main\" for vertices, fragments or compute"};
   reflection.stage = *stage;
-  reflection.selections = module.selections;
   if (*stage == ShaderStage::compute) reflect_local_size(module, reflection);
   reflect_constants(module, reflection);
 

@@ -60,7 +60,6 @@ struct SpirvReflection {
   /// the workgroup size (see SpecConstant::name). An optimiser may give a constant more names; each is listed.
   std::vector<ReflectedConstant> constants;
   std::uint32_t push_constant_bytes = 0;
-  std::uint32_t selections = 0;  ///< branches in the code: if, switch and conditional expressions; functions count once
   std::vector<ReflectedBinding> bindings;  ///< ordered by set, then binding
   std::vector<ReflectedStruct> structs;
 

@@ -45,6 +45,7 @@ Result<std::unique_ptr<Device>> VulkanDevice::create(const VulkanOptions& option
   if (!physical) return physical.error();
   if (options.push_descriptors == PushDescriptors::never) physical->push_descriptors = false;
   if (options.threads_in_turn) physical->info.threads_in_turn = *options.threads_in_turn;
+  physical->split_selections = options.split_selections;
   Result<std::unique_ptr<Context>> context = Context::create(**instance, *physical);
   if (!context) return context.error();
   return assemble(std::move(*instance), std::move(*context), options.cache_directory, options.retained_pipelines);

@@ -94,8 +94,9 @@ class Splitter {
   [[nodiscard]] bool is_long(const Triangle& t) const {
     const dvec3 &a = world(t[0]), &b = world(t[1]), &c = world(t[2]);
     const double length = length_of(a, b, c);
-    if (!(length > kSplitLength * nearest_eye_bound(seen_, a, length))) return false;
-    return length > kSplitLength * nearest_eye(seen_, a, b, c);
+    const double most = seen_.too_long / kSplitShare;
+    if (!(length > most * nearest_eye_bound(seen_, a, length))) return false;
+    return length > most * nearest_eye(seen_, a, b, c);
   }
   /// The first corner of the longest edge. Of edges of equal length both triangles choose the same one.
   [[nodiscard]] std::size_t longest_at(const Triangle& t) const {
@@ -262,8 +263,8 @@ double split_slack(const Primitive& primitive, const SeenFrom& seen) {
     for (std::size_t k = 0; k < 3; ++k)
       corners[k] = world_of(seen.world_from_mesh, dvec3(primitive.positions[primitive.indices[i + k]]));
     const double length = length_of(corners[0], corners[1], corners[2]);
-    if (!(nearest_eye_bound(seen, corners[0], length) - length / kTooLong < slack)) continue;
-    slack = std::min(slack, nearest_eye(seen, corners[0], corners[1], corners[2]) - length / kTooLong);
+    if (!(nearest_eye_bound(seen, corners[0], length) - length / seen.too_long < slack)) continue;
+    slack = std::min(slack, nearest_eye(seen, corners[0], corners[1], corners[2]) - length / seen.too_long);
   }
   return slack;
 }

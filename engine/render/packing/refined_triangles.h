@@ -6,7 +6,9 @@
 // in double precision, until each is at most a few times as long as it is away.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "engine/math/types.h"
@@ -15,9 +17,14 @@
 namespace gloam {
 
 /// A triangle that is longer than this many times its distance from a camera must be split: its rounding would be
-/// 1/32 of a pixel of 1 mrad. Split triangles are at most kSplitLength times as long as they are away.
+/// 1/32 of a pixel of 1 mrad. Split triangles are at most 1/kSplitShare of that.
 inline constexpr double kTooLong = 1024.0;
-inline constexpr double kSplitLength = 64.0;
+inline constexpr double kSplitShare = 16.0;
+/// The same for a device with these bits of subpixels (gpu::DeviceInfo). With fewer than 8, corners are moved by more
+/// when they are drawn, and so are the depths of all pixels of a triangle that reaches far out of the picture.
+[[nodiscard]] constexpr double too_long_for(std::uint32_t subpixel_bits) {
+  return kTooLong / static_cast<double>(1u << (8u - std::clamp(subpixel_bits, 4u, 8u)));
+}
 /// Most triangles that splitting adds to a primitive.
 inline constexpr std::size_t kMostAddedTriangles = 1 << 16;
 
@@ -32,9 +39,10 @@ struct SeenFrom {
   dmat4 world_from_mesh = dmat4(1.0);
   std::span<const dvec3> eyes;  ///< world; at least one
   double nearest = 0.0;         ///< nothing nearer to an eye is drawn; > 0
+  double too_long = kTooLong;   ///< too_long_for() the device
 };
 
-/// The least distance of a triangle from an eye, less its length / kTooLong. Below 0: it must be split. Otherwise none
+/// The least distance of a triangle from an eye, less its length / too_long. Below 0: it must be split. Otherwise none
 /// must be until an eye has moved by more than that.
 [[nodiscard]] double split_slack(const Primitive& primitive, const SeenFrom& seen);
 

@@ -28,11 +28,11 @@ double largest_scale(const dmat4& matrix) {
 
 /// Whether triangles of the primitive may be too large. Cheap.
 bool may_be_too_large(const Primitive& source, double longest_edge, const SeenFrom& seen) {
-  const double least = seen.nearest * kTooLong;
+  const double least = seen.nearest * seen.too_long;
   const double length = largest_scale(seen.world_from_mesh) * longest_edge;
   if (!(length > least) || !std::isfinite(length)) return false;
   const double away = nearest_eye(world_box(source.bounds, seen.world_from_mesh), seen.eyes);
-  return length > kTooLong * away;
+  return length > seen.too_long * away;
 }
 
 /// Distance from an eye to the surface.
@@ -98,7 +98,7 @@ void GpuScene::split_large_triangles(const World& world, std::span<const dvec3> 
     if (mesh_progress_[m].requested != revision || (options_.background && mesh_progress_[m].shown != revision)) return;
     const std::vector<Primitive>& sources = assets.meshes[m].primitives;
     const bool shown = mesh_progress_[m].shown == revision && meshes_[m].size() == sources.size();
-    const SeenFrom seen{transform.matrix, eyes, nearest};
+    const SeenFrom seen{transform.matrix, eyes, nearest, too_long_for(device_.info().subpixel_bits)};
     for (std::uint32_t p = 0; p < sources.size(); ++p) {
       const Primitive& source = sources[p];
       if (!source.joints.empty() || !source.morph_targets.empty()) continue;

@@ -35,12 +35,6 @@ TEST(SpirvReflection, reads_the_size_of_push_constants) {
   EXPECT_EQ(reflect(shaders::gpu_test::triangle_vert).push_constant_bytes, 0u);
 }
 
-TEST(SpirvReflection, counts_branches) {
-  EXPECT_EQ(reflect(shaders::gpu_test::look_comp).selections, 0u);
-  EXPECT_EQ(reflect(shaders::gpu_test::halve_comp).selections, 1u);     // an if
-  EXPECT_EQ(reflect(shaders::gpu_test::temporal_comp).selections, 2u);  // an if and a conditional expression
-}
-
 TEST(SpirvReflection, tells_volumes_from_planes) {
   const SpirvReflection painted = reflect_spirv(shaders::gpu_test::paint_volume_comp).value();
   ASSERT_EQ(painted.bindings.size(), 1u);

@@ -166,6 +166,7 @@ class HardScenes(ProgramCase):
             first = self.draw(make(), *options)
             for seed in ("0", "18446744073709551615"):
                 self.assertEqual(self.draw(make(), *options, "--seed", seed).rgb, first.rgb)
+        self.expect(0, "render", "builtin:plain", "--size", "16x16", "--seed", "3", says="--seed changes nothing")
         self.expect(2, "render", "builtin:plain", "--seed", "-1", says="--seed")
 
     # Time

@@ -90,6 +90,19 @@ dvec3 corner(const Primitive& p, std::size_t i, const dvec3& origin, const dmat4
   return dvec3(matrix * dvec4(origin + dvec3(p.positions[p.indices[i]]), 1.0));
 }
 
+TEST(RefinedTriangles, must_be_shorter_for_devices_with_few_bits_of_subpixels) {
+  EXPECT_EQ(too_long_for(8), kTooLong);
+  EXPECT_EQ(too_long_for(16), kTooLong);
+  EXPECT_EQ(too_long_for(4), kTooLong / 16.0);
+  EXPECT_EQ(too_long_for(0), kTooLong / 16.0) << "Vulkan promises 4";
+  const std::vector<dvec3> eyes = {dvec3(0.3, 1.6, -2.0)};
+  const Primitive ground = flat_quad(64.0f);
+  EXPECT_GT(split_slack(ground, {dmat4(1.0), eyes, kNear}), 0.0);
+  const SeenFrom seen{dmat4(1.0), eyes, kNear, too_long_for(4)};
+  EXPECT_LT(split_slack(ground, seen), 0.0);
+  EXPECT_GT(refined_triangles(ground, seen, eyes[0]).indices.size(), ground.indices.size() + 30);
+}
+
 TEST(RefinedTriangles, are_the_same_surface_in_triangles_that_are_short_for_their_distance) {
   for (const LargeCase& c : large_cases()) {
     const SeenFrom seen{c.matrix, c.eyes, kNear};
@@ -105,7 +118,7 @@ TEST(RefinedTriangles, are_the_same_surface_in_triangles_that_are_short_for_thei
       double away = std::numeric_limits<double>::infinity();
       for (const dvec3& eye : c.eyes) away = std::min(away, distance_to_triangle(eye, a, b, d));
       const double length = std::max({glm::length(b - a), glm::length(d - b), glm::length(a - d)});
-      EXPECT_LE(length, 1.001 * kSplitLength * std::max(away, kNear)) << c.name;
+      EXPECT_LE(length, 1.001 * seen.too_long / kSplitShare * std::max(away, kNear)) << c.name;
       area += 0.5 * glm::length(glm::cross(b - a, d - a));
     }
     for (std::size_t i = 0; i < c.source.indices.size(); i += 3) {

@@ -40,12 +40,6 @@ Result<Pipelines::Prepared> Pipelines::prepare(const Desc& desc, std::span<const
     Result<SpirvReflection> reflection = reflect_spirv(shaders[i]);
     if (!reflection) return Error{ErrorKind::failed, "Pipeline \"" + desc.name + "\": " + reflection.error().message};
     GLOAM_ASSERT(reflection->stage == stages[i], "a shader is used as the stage it was written for");
-    if (reflection->selections > context_.physical.max_selections) {
-      return Error{ErrorKind::no_device, "The compiler of " + context_.physical.info.name +
-                                             " does not end at shader \"" + std::string(shaders[i].name) +
-                                             "\", which has " + std::to_string(reflection->selections) +
-                                             " branches: use another device"};
-    }
     reflections.push_back(std::move(*reflection));
   }
   check_constants(desc.name, shaders, desc.constants, reflections);

@@ -7,6 +7,8 @@
 
 #include "engine/gpu/spirv/runtime_conditions.h"
 #include "engine/gpu/spirv/specialize.h"
+#include "engine/gpu/spirv/split_selections.h"
+#include "engine/gpu/vulkan/compile/path_walk.h"
 #include "engine/gpu/vulkan/errors.h"
 
 namespace gloam::gpu::vulkan {
@@ -22,6 +24,10 @@ VkShaderStageFlagBits stage_bit(ShaderStage stage) {
       break;
   }
   return VK_SHADER_STAGE_COMPUTE_BIT;
+}
+
+bool splits_selections(Context& context) {
+  return context.physical.split_selections ? *context.physical.split_selections : walks_all_paths(context);
 }
 
 }  // namespace
@@ -40,6 +46,16 @@ Status ShaderStages::add(const ShaderCode& code, ShaderStage stage, std::span<co
   std::vector<std::uint32_t> hidden;
   if (context_->physical.compiles_for_uniforms) hidden = spirv::hide_uniform_conditions(words);
   if (!hidden.empty()) words = hidden;
+  std::vector<std::uint32_t> split;
+  if (spirv::count_selections(words) > kMostSelections && splits_selections(*context_)) {
+    split = spirv::split_selections(words);
+    if (!split.empty()) words = split;
+    if (const std::uint64_t left = spirv::count_selections(words); left > kMostSelections) {
+      return Error{ErrorKind::no_device, "The compiler of " + context_->physical.info.name +
+                                             " does not end at shader \"" + std::string(code.name) + "\", which has " +
+                                             std::to_string(left) + " branches: use another device"};
+    }
+  }
   const VkShaderModuleCreateInfo info = {
       .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, .codeSize = words.size_bytes(), .pCode = words.data()};
   VkShaderModule module = VK_NULL_HANDLE;

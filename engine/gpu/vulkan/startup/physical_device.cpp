@@ -69,9 +69,6 @@ bool has_extension(const InstanceFunctions& f, VkPhysicalDevice device, const ch
                      [&](const auto& e) { return std::strcmp(e.extensionName, name) == 0; });
 }
 
-// Shaders of up to 39 branches compile in 0.1 s. Those of shadow filters have 94 to 170, and their compilation does not
-// end in minutes and 16 GiB.
-constexpr std::uint32_t kSwiftShaderSelections = 60;
 constexpr std::uint32_t kLlvmpipeLanes[] = {4, 8};  ///< vectors that llvmpipe tests depth with
 
 void read_properties(const InstanceFunctions& f, PhysicalDevice& device) {
@@ -102,8 +99,8 @@ void read_properties(const InstanceFunctions& f, PhysicalDevice& device) {
       v12.driverID == VK_DRIVER_ID_MESA_LLVMPIPE &&
       std::find(std::begin(kLlvmpipeLanes), std::end(kLlvmpipeLanes), v11.subgroupSize) == std::end(kLlvmpipeLanes);
   device.compiles_for_uniforms = v12.driverID == VK_DRIVER_ID_MESA_LLVMPIPE;
-  if (v12.driverID == VK_DRIVER_ID_GOOGLE_SWIFTSHADER) device.max_selections = kSwiftShaderSelections;
   device.info.max_storage_range = core.limits.maxStorageBufferRange;
+  device.info.subpixel_bits = core.limits.subPixelPrecisionBits;
   f.vkGetPhysicalDeviceMemoryProperties(device.handle, &device.memory);
   f.vkGetPhysicalDeviceFeatures2(device.handle, device.features.chain());
 }

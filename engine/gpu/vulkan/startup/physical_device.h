@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -37,9 +38,8 @@ struct PhysicalDevice {
   bool crashes_at_depth_tests = false;
   /// The driver compiles shaders anew when uniforms change that decide branches: see hide_uniform_conditions.
   bool compiles_for_uniforms = false;
-  /// The most branches of a shader that the driver compiles. SwiftShader follows every path through the body of a loop,
-  /// so each branch may double the time and memory of its compiler.
-  std::uint32_t max_selections = ~0u;
+  /// As VulkanOptions::split_selections.
+  std::optional<bool> split_selections;
 };
 
 /// The surface that a device must be able to present to.
