@@ -21,9 +21,11 @@ namespace gloam {
 inline constexpr double kTooLong = 1024.0;
 inline constexpr double kSplitShare = 16.0;
 /// The same for a device with these bits of subpixels (gpu::DeviceInfo). With fewer than 8, corners are moved by more
-/// when they are drawn, and so are the depths of all pixels of a triangle that reaches far out of the picture.
+/// when they are drawn, and the depths of a triangle that reaches out of the picture err in all of its pixels. With 4
+/// bits SwiftShader's err by up to 0.3 % in triangles that are 80 times as long as they are away, 0.2 % at 40 times,
+/// and 0.07 % from 2 to 20 times, at 320x180.
 [[nodiscard]] constexpr double too_long_for(std::uint32_t subpixel_bits) {
-  return kTooLong / static_cast<double>(1u << (8u - std::clamp(subpixel_bits, 4u, 8u)));
+  return kTooLong / static_cast<double>(1u << (3u * (8u - std::clamp(subpixel_bits, 4u, 8u)) / 2u));
 }
 /// Most triangles that splitting adds to a primitive.
 inline constexpr std::size_t kMostAddedTriangles = 1 << 16;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -16,6 +17,13 @@ namespace gloam {
 /// Camera-relative position of the surface at `depth` (reversed Z, > 0) under the centre of a pixel, in double.
 [[nodiscard]] dvec3 surface_position(const RenderView& view, std::uint32_t x, std::uint32_t y, float depth);
 
+/// Several times the error of a depth buffer, as a share of the distance from the camera. It grows with the grid to
+/// which a device moves corners (gpu::DeviceInfo::subpixel_bits): SwiftShader, with 4 bits, errs by up to 7e-4 in
+/// triangles that are not split (engine/render/packing/refined_triangles.h).
+[[nodiscard]] constexpr double depth_error_share(std::uint32_t subpixel_bits) {
+  return 4e-5 * static_cast<double>(1u << (8u - std::clamp(subpixel_bits, 4u, 8u)));
+}
+
 /// The geometry buffer of a view's last frame on the CPU; texels row by row from the top.
 struct GeometryPicture {
   RenderView view;
@@ -23,8 +31,9 @@ struct GeometryPicture {
   std::vector<std::uint32_t> base_color;
   std::vector<uvec2> normals;
   std::vector<std::uint32_t> material;
-  std::vector<uvec2> emissive;         ///< half floats; empty if no material of the world lets light through
-  std::vector<uvec2> smooth_surfaces;  ///< empty if the frame has no GeometryOutputs::smooth_surfaces
+  std::vector<uvec2> emissive;                ///< half floats; empty if no material of the world lets light through
+  std::vector<uvec2> smooth_surfaces;         ///< empty if the frame has no GeometryOutputs::smooth_surfaces
+  double error_share = depth_error_share(8);  ///< depth_error_share() of the device
 
   [[nodiscard]] bool is_sky(std::size_t at) const { return depth[at] <= 0.0f; }
   [[nodiscard]] GeometryTexel texel(std::size_t at) const {

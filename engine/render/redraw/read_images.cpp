@@ -74,6 +74,7 @@ Result<GeometryPicture> read_geometry(RendererParts& parts, World& world, ViewId
   if (!redrawn.ok()) return redrawn.error();
   GeometryPicture picture;
   picture.view = redrawn->builder().view();
+  picture.error_share = depth_error_share(parts.options.device->info().subpixel_bits);
   picture.depth = items_of<float>(*redrawn->copies, "depth");
   picture.base_color = items_of<std::uint32_t>(*redrawn->copies, "base_color");
   picture.normals = items_of<uvec2>(*redrawn->copies, "normals");

@@ -187,8 +187,8 @@ class RowTracer {
     const bool local = emitter.kind != LightKind::directional;
     const dvec3 to_light = local ? emitter.position - point.position : -emitter.axis;
     const double side = point.subsurface && glm::dot(point.normal, to_light) < 0.0 ? -1.0 : 1.0;
-    const double lift =
-        kRayStartShare * glm::length(point.position) + kRayRounding * glm::length(point.position + camera_from_tracer_);
+    const double lift = input_.geometry.error_share * glm::length(point.position) +
+                        kRayRounding * glm::length(point.position + camera_from_tracer_);
     const dvec3 start = point.position + point.normal * side * lift;
     const dvec3 middle = local ? emitter.position - start : to_light;
     const double distance = glm::length(middle);

@@ -20,9 +20,9 @@ namespace gloam {
 ///   that diameter that faces the receiver, so that a penumbra is (d_r − d_b) · width / d_b wide, as the filters
 ///   assume. The emitter of a directional light is a cone of Light::apparent_angle. Without width, one ray goes to the
 ///   centre.
-/// - Rays begin at the surface under a pixel's centre, offset by a share of their coordinates along its face normal to
-/// the visible side
-///   (subsurface materials: to the light's side). They end at the disc, short of it by their rounding.
+/// - Rays begin at the surface under a pixel's centre, offset along its face normal to the visible side (subsurface
+///   materials: to the light's side) by GeometryPicture::error_share of their distance from the camera. They end at the
+///   disc, short of it by their rounding.
 /// - Where the geometry has smooth surfaces (shadows.terminator), rays begin there, and the smooth surface's normal
 ///   takes the place of the face normal. Subsurface materials are left out, as by the filters.
 /// - Bulbs (modules/shadows/views/bulbs.h) do not block the light that they belong to.
@@ -30,9 +30,6 @@ namespace gloam {
 ///   subsurface: the surface is opaque, even if the mesh behind it is open.
 /// - Where light from behind passes (GeometryPicture::extinction_m(), by the shading normal), a ray counts by
 ///   exp(−way inside the receiver's body / extinction length), and is blocked by anything else on it.
-/// Offset of ray starts as a share of the distance from the camera: several times the rounding error of depth buffer
-/// and transforms.
-inline constexpr double kRayStartShare = 4e-5;
 /// Sine of an angle below the surface, several times the rounding error of face normals, which have 16 bits a
 /// component.
 inline constexpr double kBehindSine = 2e-4;

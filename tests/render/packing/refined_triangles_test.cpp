@@ -93,8 +93,8 @@ dvec3 corner(const Primitive& p, std::size_t i, const dvec3& origin, const dmat4
 TEST(RefinedTriangles, must_be_shorter_for_devices_with_few_bits_of_subpixels) {
   EXPECT_EQ(too_long_for(8), kTooLong);
   EXPECT_EQ(too_long_for(16), kTooLong);
-  EXPECT_EQ(too_long_for(4), kTooLong / 16.0);
-  EXPECT_EQ(too_long_for(0), kTooLong / 16.0) << "Vulkan promises 4";
+  EXPECT_EQ(too_long_for(4), kTooLong / 64.0);
+  EXPECT_EQ(too_long_for(0), kTooLong / 64.0) << "Vulkan promises 4";
   const std::vector<dvec3> eyes = {dvec3(0.3, 1.6, -2.0)};
   const Primitive ground = flat_quad(64.0f);
   EXPECT_GT(split_slack(ground, {dmat4(1.0), eyes, kNear}), 0.0);
