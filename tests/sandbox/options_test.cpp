@@ -154,7 +154,7 @@ TEST(Options, wrong_usage_is_refused) {
 }
 
 TEST(Options, an_unknown_command_is_answered_with_the_nearest_one_before_the_list) {
-  const std::string list = "there are play, render, inspect, bake, cost, bench, selftest, knobs, scenes";
+  const std::string list = "there are play, render, inspect, bake, cost, bench, selftest, compare, knobs, scenes";
   EXPECT_EQ(fault({"rendr", "a.gltf", "--size", "0x0"}), "unknown command 'rendr'; did you mean render? " + list);
   EXPECT_EQ(fault({"Inspect", "a.gltf"}), "unknown command 'Inspect'; did you mean inspect? " + list);
   EXPECT_EQ(fault({"dance"}), "unknown command 'dance'; " + list);

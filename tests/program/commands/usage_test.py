@@ -15,7 +15,7 @@ class Usage(ProgramCase):
     # Hard case: program.alone
     def test_alone_it_prints_its_help_and_leaves_with_2(self):
         run = self.expect(2)
-        for command in ("play", "render", "inspect", "bake", "cost", "bench", "scenes", "knobs"):
+        for command in ("play", "render", "inspect", "bake", "cost", "bench", "selftest", "compare", "scenes", "knobs"):
             self.assertIn(command, run.stdout)
 
     def test_help_and_version_are_results(self):
