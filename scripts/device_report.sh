@@ -31,10 +31,14 @@ for scene in $("$gloam" scenes | awk '{print $1}'); do
   name=${scene#builtin:}
   part "picture_$name" timeout 60 "$gloam" render "$scene" --device "$device" --size 640x360 --frames 8 \
     --out "$out/pictures/$name.png" --stats "$out/pictures/$name.json"
+  # Blades of grass are about a pixel wide, so a device with another grid of subpixels draws other ones of their pixels.
+  case $name in meadow* | dusk) most=0.045 ;; *) most=0.015 ;; esac
   [ ! -f "$here/pictures/$name.png" ] ||
-    part "compare_$name" "$gloam" compare "$out/pictures/$name.png" "$here/pictures/$name.png" --most 0.03
+    part "compare_$name" "$gloam" compare "$out/pictures/$name.png" "$here/pictures/$name.png" --most $most
 done
 part validation timeout 60 "$gloam" render builtin:dusk --device "$device" --size 320x180 --frames 3 --validate \
   --out "$out/pictures/validated.png"
-part bench timeout 120 "$gloam" bench lights shadows.frame frame.wall --device "$device" --size 640x360 --json "$out/bench.json"
+size=1920x1080
+grep -q '"type": *"cpu"' "$out/pictures/plain.json" && size=320x180
+part bench timeout 150 "$gloam" bench lights shadows.frame frame.wall --device "$device" --size $size --json "$out/bench.json"
 exit $failed
