@@ -100,6 +100,32 @@ std::vector<Instruction> instructions_of(std::span<const std::uint32_t> words) {
   return instructions;
 }
 
+std::span<const Instruction> globals_of(std::span<const Instruction> instructions) {
+  return {instructions.begin(), std::ranges::find(instructions, std::uint32_t{spv::OpFunction}, &Instruction::op)};
+}
+
+std::vector<std::span<const Instruction>> functions_of(std::span<const Instruction> instructions) {
+  std::vector<std::span<const Instruction>> functions;
+  const auto begins = [](const Instruction& i) { return i.op == spv::OpFunction; };
+  const auto ends = [](const Instruction& i) { return i.op == spv::OpFunctionEnd; };
+  for (auto at = std::ranges::find_if(instructions, begins); at != instructions.end();) {
+    const auto end = std::find_if(at, instructions.end(), ends);
+    if (end == instructions.end()) return {};
+    functions.emplace_back(at, end);
+    at = std::find_if(end, instructions.end(), begins);
+  }
+  return functions;
+}
+
+void append(std::vector<std::uint32_t>& to, std::uint32_t op, std::initializer_list<std::uint32_t> operands) {
+  to.push_back((static_cast<std::uint32_t>(operands.size()) + 1) << spv::WordCountShift | op);
+  to.insert(to.end(), operands);
+}
+
+void append(std::vector<std::uint32_t>& to, const Instruction& instruction) {
+  to.insert(to.end(), instruction.words.begin(), instruction.words.end());
+}
+
 bool divide_into_blocks(std::span<const Instruction> function, FunctionBlocks& result) {
   const auto is_label = [](const Instruction& instruction) { return instruction.op == spv::OpLabel; };
   const auto begin = function.begin(), end = function.end();

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -22,6 +23,15 @@ struct Instruction {
 /// The instructions of a module after its header. Empty if one runs past the end, or is too short for the operands that
 /// this folder reads.
 [[nodiscard]] std::vector<Instruction> instructions_of(std::span<const std::uint32_t> words);
+
+/// What stands before a module's first function.
+[[nodiscard]] std::span<const Instruction> globals_of(std::span<const Instruction> instructions);
+/// A module's functions, each from OpFunction to the instruction before OpFunctionEnd. Empty if one does not end.
+[[nodiscard]] std::vector<std::span<const Instruction>> functions_of(std::span<const Instruction> instructions);
+
+/// Writes an instruction.
+void append(std::vector<std::uint32_t>& to, std::uint32_t op, std::initializer_list<std::uint32_t> operands);
+void append(std::vector<std::uint32_t>& to, const Instruction& instruction);
 
 /// A basic block. Blocks are named by their index in the function.
 struct Block {

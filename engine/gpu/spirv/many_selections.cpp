@@ -4,8 +4,6 @@
 
 #include <spirv/unified1/spirv.hpp>
 
-#include <initializer_list>
-
 #include "engine/gpu/spirv/control_flow.h"
 
 namespace gloam::gpu::spirv {
@@ -51,78 +49,70 @@ struct Ids {
   std::uint32_t header, value, differs, first, second, constant;
 };
 
-class Writer {
- public:
-  void add(std::uint32_t op, std::initializer_list<std::uint32_t> operands) {
-    words.push_back((static_cast<std::uint32_t>(operands.size()) + 1) << spv::WordCountShift | op);
-    words.insert(words.end(), operands);
-  }
-  std::vector<std::uint32_t> words;
-};
+using Words = std::vector<std::uint32_t>;
 
-void declare(Writer& w, std::uint32_t count) {
-  w.add(spv::OpCapability, {spv::CapabilityShader});
-  w.add(spv::OpMemoryModel, {spv::AddressingModelLogical, spv::MemoryModelGLSL450});
-  w.add(spv::OpEntryPoint, {spv::ExecutionModelGLCompute, kMain, kMainName[0], kMainName[1], kBuffer});
-  w.add(spv::OpExecutionMode, {kMain, spv::ExecutionModeLocalSize, 1, 1, 1});
-  w.add(spv::OpDecorate, {kBlock, spv::DecorationBlock});
-  w.add(spv::OpMemberDecorate, {kBlock, 0, spv::DecorationOffset, 0});
-  w.add(spv::OpDecorate, {kBuffer, spv::DecorationDescriptorSet, 0});
-  w.add(spv::OpDecorate, {kBuffer, spv::DecorationBinding, 0});
-  w.add(spv::OpTypeVoid, {kVoid});
-  w.add(spv::OpTypeFunction, {kFunction, kVoid});
-  w.add(spv::OpTypeInt, {kUint, 32, 0});
-  w.add(spv::OpTypeBool, {kBool});
-  w.add(spv::OpTypeStruct, {kBlock, kUint});
-  w.add(spv::OpTypePointer, {kBlockPointer, spv::StorageClassStorageBuffer, kBlock});
-  w.add(spv::OpVariable, {kBlockPointer, kBuffer, spv::StorageClassStorageBuffer});
-  w.add(spv::OpTypePointer, {kUintPointer, spv::StorageClassStorageBuffer, kUint});
-  w.add(spv::OpConstant, {kUint, kZero, 0});
-  w.add(spv::OpConstant, {kUint, kOne, 1});
-  for (std::uint32_t i = 0; i < count; ++i) w.add(spv::OpConstant, {kUint, Ids(i).constant, i + 2});
+void declare(Words& w, std::uint32_t count) {
+  append(w, spv::OpCapability, {spv::CapabilityShader});
+  append(w, spv::OpMemoryModel, {spv::AddressingModelLogical, spv::MemoryModelGLSL450});
+  append(w, spv::OpEntryPoint, {spv::ExecutionModelGLCompute, kMain, kMainName[0], kMainName[1], kBuffer});
+  append(w, spv::OpExecutionMode, {kMain, spv::ExecutionModeLocalSize, 1, 1, 1});
+  append(w, spv::OpDecorate, {kBlock, spv::DecorationBlock});
+  append(w, spv::OpMemberDecorate, {kBlock, 0, spv::DecorationOffset, 0});
+  append(w, spv::OpDecorate, {kBuffer, spv::DecorationDescriptorSet, 0});
+  append(w, spv::OpDecorate, {kBuffer, spv::DecorationBinding, 0});
+  append(w, spv::OpTypeVoid, {kVoid});
+  append(w, spv::OpTypeFunction, {kFunction, kVoid});
+  append(w, spv::OpTypeInt, {kUint, 32, 0});
+  append(w, spv::OpTypeBool, {kBool});
+  append(w, spv::OpTypeStruct, {kBlock, kUint});
+  append(w, spv::OpTypePointer, {kBlockPointer, spv::StorageClassStorageBuffer, kBlock});
+  append(w, spv::OpVariable, {kBlockPointer, kBuffer, spv::StorageClassStorageBuffer});
+  append(w, spv::OpTypePointer, {kUintPointer, spv::StorageClassStorageBuffer, kUint});
+  append(w, spv::OpConstant, {kUint, kZero, 0});
+  append(w, spv::OpConstant, {kUint, kOne, 1});
+  for (std::uint32_t i = 0; i < count; ++i) append(w, spv::OpConstant, {kUint, Ids(i).constant, i + 2});
 }
 
-void write_if(Writer& w, const Ids& ids, std::uint32_t after) {
-  w.add(spv::OpLabel, {ids.header});
-  w.add(spv::OpLoad, {kUint, ids.value, kPlace});
-  w.add(spv::OpINotEqual, {kBool, ids.differs, ids.value, ids.constant});
-  w.add(spv::OpSelectionMerge, {after, spv::SelectionControlMaskNone});
-  w.add(spv::OpBranchConditional, {ids.differs, ids.first, ids.second});
-  w.add(spv::OpLabel, {ids.first});
-  w.add(spv::OpStore, {kPlace, ids.constant});
-  w.add(spv::OpBranch, {after});
-  w.add(spv::OpLabel, {ids.second});
-  w.add(spv::OpStore, {kPlace, kOne});
-  w.add(spv::OpBranch, {after});
+void write_if(Words& w, const Ids& ids, std::uint32_t after) {
+  append(w, spv::OpLabel, {ids.header});
+  append(w, spv::OpLoad, {kUint, ids.value, kPlace});
+  append(w, spv::OpINotEqual, {kBool, ids.differs, ids.value, ids.constant});
+  append(w, spv::OpSelectionMerge, {after, spv::SelectionControlMaskNone});
+  append(w, spv::OpBranchConditional, {ids.differs, ids.first, ids.second});
+  append(w, spv::OpLabel, {ids.first});
+  append(w, spv::OpStore, {kPlace, ids.constant});
+  append(w, spv::OpBranch, {after});
+  append(w, spv::OpLabel, {ids.second});
+  append(w, spv::OpStore, {kPlace, kOne});
+  append(w, spv::OpBranch, {after});
 }
 
 }  // namespace
 
 std::vector<std::uint32_t> many_selections(std::uint32_t count) {
-  Writer w;
-  w.words = {spv::MagicNumber, kVersion15, 0, Ids(count).header, 0};
+  Words w = {spv::MagicNumber, kVersion15, 0, Ids(count).header, 0};
   declare(w, count);
   const std::uint32_t first = count > 0 ? Ids(0).header : kLast;
-  w.add(spv::OpFunction, {kVoid, kMain, spv::FunctionControlMaskNone, kFunction});
-  w.add(spv::OpLabel, {kEntry});
-  w.add(spv::OpAccessChain, {kUintPointer, kPlace, kBuffer, kZero});
-  w.add(spv::OpLoad, {kUint, kTurns, kPlace});
-  w.add(spv::OpBranch, {kHeader});
-  w.add(spv::OpLabel, {kHeader});
-  w.add(spv::OpPhi, {kUint, kTurn, kZero, kEntry, kNextTurn, kContinue});
-  w.add(spv::OpLoopMerge, {kMerge, kContinue, spv::LoopControlMaskNone});
-  w.add(spv::OpBranch, {first});
+  append(w, spv::OpFunction, {kVoid, kMain, spv::FunctionControlMaskNone, kFunction});
+  append(w, spv::OpLabel, {kEntry});
+  append(w, spv::OpAccessChain, {kUintPointer, kPlace, kBuffer, kZero});
+  append(w, spv::OpLoad, {kUint, kTurns, kPlace});
+  append(w, spv::OpBranch, {kHeader});
+  append(w, spv::OpLabel, {kHeader});
+  append(w, spv::OpPhi, {kUint, kTurn, kZero, kEntry, kNextTurn, kContinue});
+  append(w, spv::OpLoopMerge, {kMerge, kContinue, spv::LoopControlMaskNone});
+  append(w, spv::OpBranch, {first});
   for (std::uint32_t i = 0; i < count; ++i) write_if(w, Ids(i), i + 1 < count ? Ids(i + 1).header : kLast);
-  w.add(spv::OpLabel, {kLast});
-  w.add(spv::OpBranch, {kContinue});
-  w.add(spv::OpLabel, {kContinue});
-  w.add(spv::OpIAdd, {kUint, kNextTurn, kTurn, kOne});
-  w.add(spv::OpULessThan, {kBool, kRepeats, kNextTurn, kTurns});
-  w.add(spv::OpBranchConditional, {kRepeats, kHeader, kMerge});
-  w.add(spv::OpLabel, {kMerge});
-  w.add(spv::OpReturn, {});
-  w.add(spv::OpFunctionEnd, {});
-  return w.words;
+  append(w, spv::OpLabel, {kLast});
+  append(w, spv::OpBranch, {kContinue});
+  append(w, spv::OpLabel, {kContinue});
+  append(w, spv::OpIAdd, {kUint, kNextTurn, kTurn, kOne});
+  append(w, spv::OpULessThan, {kBool, kRepeats, kNextTurn, kTurns});
+  append(w, spv::OpBranchConditional, {kRepeats, kHeader, kMerge});
+  append(w, spv::OpLabel, {kMerge});
+  append(w, spv::OpReturn, {});
+  append(w, spv::OpFunctionEnd, {});
+  return w;
 }
 
 }  // namespace gloam::gpu::spirv

@@ -5,7 +5,6 @@
 #include <spirv/unified1/spirv.hpp>
 
 #include <algorithm>
-#include <initializer_list>
 #include <optional>
 #include <utility>
 
@@ -41,11 +40,6 @@ std::optional<Input> input_of(std::uint32_t execution_model) {
     default:
       return std::nullopt;
   }
-}
-
-void append(Words& out, spv::Op op, std::initializer_list<std::uint32_t> operands) {
-  out.push_back(static_cast<std::uint32_t>((operands.size() + 1) << spv::WordCountShift) | op);
-  out.insert(out.end(), operands);
 }
 
 class Rewriter {

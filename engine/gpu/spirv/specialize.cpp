@@ -125,16 +125,10 @@ class Specializer {
   std::vector<std::uint32_t> run() {
     const std::vector<Instruction> all = instructions_of(words_.subspan(kModuleHeaderWords));
     if (all.empty()) return {};
-    const auto first = std::ranges::find(all, std::uint32_t{spv::OpFunction}, &Instruction::op);
-    const std::span<const Instruction> globals{all.begin(), first};
+    const std::vector<std::span<const Instruction>> functions = functions_of(all);
+    const std::span<const Instruction> globals = globals_of(all);
+    if (functions.empty() && globals.size() < all.size()) return {};
     if (!read_constants(globals)) return {};
-    std::vector<std::span<const Instruction>> functions;
-    for (auto at = first; at != all.end();) {
-      const auto end = std::find_if(at, all.end(), [](const auto& i) { return i.op == spv::OpFunctionEnd; });
-      if (end == all.end()) return {};
-      functions.emplace_back(at, end);
-      at = end + 1;
-    }
     if (!find_live_functions(functions)) return {};
     for (const auto& function : functions) collect_removed(function);
     std::vector<std::uint32_t> bodies;
@@ -149,14 +143,6 @@ class Specializer {
   }
 
  private:
-  static void append(std::vector<std::uint32_t>& to, std::uint32_t op, std::initializer_list<std::uint32_t> operands) {
-    to.push_back((static_cast<std::uint32_t>(operands.size()) + 1) << spv::WordCountShift | op);
-    to.insert(to.end(), operands);
-  }
-  static void append(std::vector<std::uint32_t>& to, const Instruction& instruction) {
-    to.insert(to.end(), instruction.words.begin(), instruction.words.end());
-  }
-
   [[nodiscard]] std::uint32_t value_of(std::uint32_t id, std::uint32_t default_value) const {
     const auto spec = spec_ids_.find(id);
     if (spec == spec_ids_.end()) return default_value;

@@ -5,7 +5,6 @@
 #include <spirv/unified1/spirv.hpp>
 
 #include <algorithm>
-#include <initializer_list>
 #include <map>
 #include <unordered_map>
 
@@ -13,20 +12,6 @@
 
 namespace gloam::gpu::spirv {
 namespace {
-
-/// A module's functions, each from OpFunction to the instruction before OpFunctionEnd. Empty if one does not end.
-std::vector<std::span<const Instruction>> functions_of(std::span<const Instruction> instructions) {
-  std::vector<std::span<const Instruction>> functions;
-  const auto begins = [](const Instruction& i) { return i.op == spv::OpFunction; };
-  const auto ends = [](const Instruction& i) { return i.op == spv::OpFunctionEnd; };
-  for (auto at = std::ranges::find_if(instructions, begins); at != instructions.end();) {
-    const auto end = std::find_if(at, instructions.end(), ends);
-    if (end == instructions.end()) return {};
-    functions.emplace_back(at, end);
-    at = std::find_if(end, instructions.end(), begins);
-  }
-  return functions;
-}
 
 /// Whether a block begins an if that has an else.
 bool has_else(const FunctionBlocks& function, const Block& block) {
@@ -52,7 +37,7 @@ class SelectionSplitter {
   std::vector<std::uint32_t> run() {
     const auto functions = functions_of(all_);
     if (functions.empty()) return {};
-    const std::span<const Instruction> globals{all_.data(), functions.front().data()};
+    const std::span<const Instruction> globals = globals_of(all_);
     const auto boolean = std::ranges::find(globals, std::uint32_t{spv::OpTypeBool}, &Instruction::op);
     if (boolean == globals.end()) return {};
     bool_type_ = boolean->words[1];
@@ -64,20 +49,13 @@ class SelectionSplitter {
     if (!any_) return {};
     std::vector<std::uint32_t> out(words_.begin(), words_.begin() + kModuleHeaderWords);
     out[kBoundWord] = bound_;
-    for (const Instruction& i : globals) out.insert(out.end(), i.words.begin(), i.words.end());
+    for (const Instruction& i : globals) append(out, i);
     for (const auto& [type, id] : nulls_) append(out, spv::OpConstantNull, {type, id});
     out.insert(out.end(), bodies_.begin(), bodies_.end());
     return out;
   }
 
  private:
-  static void append(std::vector<std::uint32_t>& to, std::uint32_t op, std::initializer_list<std::uint32_t> operands) {
-    to.push_back((static_cast<std::uint32_t>(operands.size()) + 1) << spv::WordCountShift | op);
-    to.insert(to.end(), operands);
-  }
-  void append(const Instruction& i) { bodies_.insert(bodies_.end(), i.words.begin(), i.words.end()); }
-  void append(std::uint32_t op, std::initializer_list<std::uint32_t> operands) { append(bodies_, op, operands); }
-
   /// The ifs with an else whose arms both come to the merge block.
   void find_selections(const FunctionBlocks& function) {
     headers_.clear();
@@ -121,13 +99,13 @@ class SelectionSplitter {
   void write(const FunctionBlocks& function) {
     find_selections(function);
     any_ = any_ || !headers_.empty();
-    for (const Instruction& i : function.head) append(i);
+    for (const Instruction& i : function.head) append(bodies_, i);
     for (std::uint32_t at = 0; at < function.blocks.size(); ++at) {
-      append(spv::OpLabel, {function.blocks[at].label});
+      append(bodies_, spv::OpLabel, {function.blocks[at].label});
       write_block(function, at);
       if (const auto split = headers_.find(at); split != headers_.end()) write_between(function, split->second);
     }
-    append(spv::OpFunctionEnd, {});
+    append(bodies_, spv::OpFunctionEnd, {});
   }
 
   void write_block(const FunctionBlocks& function, std::uint32_t at) {
@@ -135,7 +113,7 @@ class SelectionSplitter {
     const auto merged = merges_.find(at);
     for (const Instruction& i : function.blocks[at].instructions) {
       const std::size_t start = bodies_.size();
-      append(i);
+      append(bodies_, i);
       if (i.op == spv::OpPhi && merged != merges_.end()) {
         const std::uint32_t end = function.blocks[merged->second.first_end].label;
         for (std::size_t w = 3; w + 1 < i.words.size(); w += 2)
@@ -176,18 +154,19 @@ class SelectionSplitter {
   void write_between(const FunctionBlocks& function, const Selection& selection) {
     const Block& header = function.blocks[selection.header];
     const std::uint32_t end = function.blocks[selection.first_end].label;
-    append(spv::OpLabel, {selection.between});
+    append(bodies_, spv::OpLabel, {selection.between});
     for (const Instruction& i : function.blocks[selection.merge].instructions) {
       if (i.op != spv::OpPhi) continue;
       for (std::size_t w = 3; w + 1 < i.words.size(); w += 2)
         if (i.words[w + 1] == end)
-          append(spv::OpPhi, {i.words[1], joined(i.words[2]), i.words[w], end, null_of(i.words[1]), header.label});
+          append(bodies_, spv::OpPhi,
+                 {i.words[1], joined(i.words[2]), i.words[w], end, null_of(i.words[1]), header.label});
     }
     const std::uint32_t opposite = bound_++;
     const Instruction& branch = header.instructions.back();
-    append(spv::OpLogicalNot, {bool_type_, opposite, branch.words[1]});
-    append(spv::OpSelectionMerge, {function.blocks[selection.merge].label, header.merge->words[2]});
-    append(spv::OpBranchConditional, {opposite, branch.words[3], function.blocks[selection.merge].label});
+    append(bodies_, spv::OpLogicalNot, {bool_type_, opposite, branch.words[1]});
+    append(bodies_, spv::OpSelectionMerge, {function.blocks[selection.merge].label, header.merge->words[2]});
+    append(bodies_, spv::OpBranchConditional, {opposite, branch.words[3], function.blocks[selection.merge].label});
   }
 
   std::span<const std::uint32_t> words_;

@@ -26,9 +26,9 @@ namespace {
 constexpr double kRayStartShare = 4e-5;
 constexpr double kBehindSurface = 2e-4;  // sine of an angle below a surface, from which on it hides a light
 
-/// Positions are relative to the tracer's origin.
-dvec3 ray_start(const dvec3& position, const dvec3& face_normal, const dvec3& camera) {
-  return position + face_normal * (kRayStartShare * (glm::length(position) + glm::length(camera)));
+/// Positions are relative to the tracer's origin. share: GeometryPicture::error_share for a point of that picture.
+dvec3 ray_start(const dvec3& position, const dvec3& face_normal, const dvec3& camera, double share = kRayStartShare) {
+  return position + face_normal * (share * (glm::length(position) + glm::length(camera)));
 }
 
 double brightness_of(const dvec3& color) { return color.r + color.g + color.b; }
@@ -71,7 +71,8 @@ class PixelTracer {
   /// Sets up the pixel's rays and their weights.
   void aim(const PixelSurface& surface, const PixelSequence& sequence) {
     const ReflectionLobe lobe(surface.normal, surface.face_normal, surface.to_eye, surface.roughness);
-    const vec3 origin(ray_start(surface.position + tracer_from_camera_, surface.face_normal, tracer_from_camera_));
+    const vec3 origin(ray_start(surface.position + tracer_from_camera_, surface.face_normal, tracer_from_camera_,
+                                input_.geometry.error_share));
     rays_.clear();
     weights_.clear();
     for (std::uint32_t i = 0; surface.roughness >= kMirrorRoughness && i < settings_.rays; ++i) {
