@@ -38,6 +38,17 @@ void add_range_curves(std::vector<SelfTestCheck>& checks);
 /// All checks, in the order in which they run.
 [[nodiscard]] std::vector<SelfTestCheck> selftest_checks();
 
+/// The check of a kernel or of a reference, from what it says of itself.
+template <class Own>
+[[nodiscard]] StabilityCheck kernel_stability(const Own& own) {
+  return {.name = own.name,
+          .kind = StabilityKind::kernel,
+          .sentence = own.sentence,
+          .unit = own.unit,
+          .bound = own.bound,
+          .advice = own.advice};
+}
+
 /// Notes an error at a point of a curve, and the worst one of the promised range.
 void add_point(StabilityCheck& check, double at, double error, const std::string& words);
 /// Notes an error of a case.

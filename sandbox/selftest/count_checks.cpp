@@ -54,12 +54,7 @@ const std::vector<ReferenceCase>& references() {
 }
 
 void add_reference(const ReferenceCase& own, std::vector<SelfTestCheck>& checks) {
-  StabilityCheck check = {.name = own.name,
-                          .kind = StabilityKind::kernel,
-                          .sentence = own.sentence,
-                          .unit = own.unit,
-                          .bound = own.bound,
-                          .advice = own.advice};
+  StabilityCheck check = kernel_stability(own);
   checks.push_back({std::move(check), own.quick, [own](SelfTestContext& context, StabilityCheck& result) -> Status {
                       const EffectScene& scene = effect_scene(own.scene);
                       TestView view = view_of(scene);

@@ -10,12 +10,7 @@ namespace gloam {
 namespace {
 
 void add_kernel_check(KernelCheck own, std::vector<SelfTestCheck>& checks) {
-  StabilityCheck check = {.name = own.name,
-                          .kind = StabilityKind::kernel,
-                          .sentence = own.sentence,
-                          .unit = own.unit,
-                          .bound = own.bound,
-                          .advice = own.advice};
+  StabilityCheck check = kernel_stability(own);
   const bool quick = own.quick;
   checks.push_back(
       {std::move(check), quick, [run = std::move(own.run)](SelfTestContext& context, StabilityCheck& result) -> Status {

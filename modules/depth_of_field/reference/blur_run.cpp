@@ -3,6 +3,7 @@
 #include "modules/depth_of_field/reference/blur_run.h"
 
 #include <algorithm>
+#include <random>
 
 #include "engine/render/kernel_check/pass_run.h"
 #include "modules/depth_of_field/dof_passes.h"
@@ -39,6 +40,27 @@ void add_nan_pass(FrameBuilder& frame) {
 constexpr double kDofOffset = 40.0;
 
 }  // namespace
+
+DofInput objects_in_depth(std::uint32_t width, std::uint32_t height, std::uint32_t seed) {
+  DofInput in(width, height, 0.0f);
+  std::mt19937 random(seed);
+  const auto between = [&](float low, float high) { return std::uniform_real_distribution<float>(low, high)(random); };
+  for (std::uint32_t y = 0; y < height; ++y)
+    for (std::uint32_t x = 0; x < width; ++x)
+      in.coc[in.at(x, y)] = 24.3f - 31.0f * static_cast<float>(y) / static_cast<float>(height);
+  for (int object = 0; object < 6; ++object) {
+    const float circle = object == 0 ? 0.1f : between(-20.0f, 35.0f);
+    const auto left = static_cast<std::uint32_t>(between(0.0f, 0.8f) * static_cast<float>(width));
+    const auto top = static_cast<std::uint32_t>(between(0.0f, 0.8f) * static_cast<float>(height));
+    for (std::uint32_t y = top; y < std::min(height, top + 1 + height / 6); ++y)
+      for (std::uint32_t x = left; x < std::min(width, left + 1 + width / 5); ++x) in.coc[in.at(x, y)] = circle;
+  }
+  for (vec4& light : in.light) {
+    light = vec4(between(0.1f, 1.0f), between(0.1f, 1.0f), between(0.1f, 1.0f), 1.0f);
+    if (random() % 50 == 0) light *= 5.0f;
+  }
+  return in;
+}
 
 Result<DofResult> run_dof(const KernelLab& lab, const DofInput& in) {
   std::vector<float> depth;

@@ -30,6 +30,9 @@ struct DofInput {
   [[nodiscard]] std::size_t at(std::uint32_t x, std::uint32_t y) const { return std::size_t{y} * width + x; }
 };
 
+/// A picture with objects before, in and behind the focus on a ground that recedes.
+[[nodiscard]] DofInput objects_in_depth(std::uint32_t width, std::uint32_t height, std::uint32_t seed);
+
 using DofHalf = std::array<std::uint16_t, 4>;
 
 struct DofResult {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <random>
 #include <string>
 
 #include "engine/core/text/formatted.h"
@@ -23,31 +22,9 @@ std::string words_of(const DofInput& in) {
                    in.knobs.full_resolution ? "full" : "half", static_cast<double>(in.knobs.radius));
 }
 
-/// A picture with objects before, in and behind the focus on a ground that recedes.
-DofInput objects_in_depth(std::uint32_t width, std::uint32_t height) {
-  DofInput in(width, height, 0.0f);
-  std::mt19937 random(1);
-  const auto between = [&](float low, float high) { return std::uniform_real_distribution<float>(low, high)(random); };
-  for (std::uint32_t y = 0; y < height; ++y)
-    for (std::uint32_t x = 0; x < width; ++x)
-      in.coc[in.at(x, y)] = 24.3f - 31.0f * static_cast<float>(y) / static_cast<float>(height);
-  for (int object = 0; object < 6; ++object) {
-    const float circle = object == 0 ? 0.1f : between(-20.0f, 35.0f);
-    const auto left = static_cast<std::uint32_t>(between(0.0f, 0.8f) * static_cast<float>(width));
-    const auto top = static_cast<std::uint32_t>(between(0.0f, 0.8f) * static_cast<float>(height));
-    for (std::uint32_t y = top; y < std::min(height, top + 1 + height / 6); ++y)
-      for (std::uint32_t x = left; x < std::min(width, left + 1 + width / 5); ++x) in.coc[in.at(x, y)] = circle;
-  }
-  for (vec4& light : in.light) {
-    light = vec4(between(0.1f, 1.0f), between(0.1f, 1.0f), between(0.1f, 1.0f), 1.0f);
-    if (random() % 50 == 0) light *= 5.0f;
-  }
-  return in;
-}
-
 Result<KernelError> run_blur_cases(KernelLab& lab) {
   KernelError error;
-  DofInput in = objects_in_depth(81, 67);
+  DofInput in = objects_in_depth(81, 67, 1);
   in.knobs.radius = 15.0f;
   for (const Bokeh bokeh : {Bokeh::round, Bokeh::hexagonal})
     for (const bool full : {false, true}) {

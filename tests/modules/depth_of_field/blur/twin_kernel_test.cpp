@@ -42,29 +42,6 @@ class DofBlur : public DofChainTest {
            std::to_string(static_cast<int>(in.knobs.radius)) + ", " + std::to_string(in.width) + "x" +
            std::to_string(in.height);
   }
-  /// A picture with objects before, in and behind the focus on a ground that recedes.
-  static DofInput scene(std::uint32_t width, std::uint32_t height, std::uint32_t seed) {
-    DofInput in(width, height, 0.0f);
-    std::mt19937 random(seed);
-    const auto between = [&](float low, float high) {
-      return std::uniform_real_distribution<float>(low, high)(random);
-    };
-    for (std::uint32_t y = 0; y < height; ++y)
-      for (std::uint32_t x = 0; x < width; ++x)
-        in.coc[in.at(x, y)] = 24.3f - 31.0f * static_cast<float>(y) / static_cast<float>(height);
-    for (int object = 0; object < 6; ++object) {
-      const float circle = object == 0 ? 0.1f : between(-20.0f, 35.0f);
-      const auto left = static_cast<std::uint32_t>(between(0.0f, 0.8f) * static_cast<float>(width));
-      const auto top = static_cast<std::uint32_t>(between(0.0f, 0.8f) * static_cast<float>(height));
-      for (std::uint32_t y = top; y < std::min(height, top + 1 + height / 6); ++y)
-        for (std::uint32_t x = left; x < std::min(width, left + 1 + width / 5); ++x) in.coc[in.at(x, y)] = circle;
-    }
-    for (vec4& light : in.light) {
-      light = vec4(between(0.1f, 1.0f), between(0.1f, 1.0f), between(0.1f, 1.0f), 1.0f);
-      if (random() % 50 == 0) light *= 5.0f;
-    }
-    return in;
-  }
   static void expect_twins(DofInput in, std::initializer_list<float> radii) {
     for (const Bokeh bokeh : {Bokeh::round, Bokeh::hexagonal})
       for (const bool full : {false, true})
@@ -79,7 +56,7 @@ class DofBlur : public DofChainTest {
 INSTANTIATE_TEST_SUITE_P(Variants, DofBlur, testing::Bool());
 
 TEST_P(DofBlur, equals_the_twin_in_a_picture_with_objects_before_and_behind_the_focus) {
-  expect_twins(scene(112, 80, 1), {3.0f, 15.0f, 31.0f});
+  expect_twins(objects_in_depth(112, 80, 1), {3.0f, 15.0f, 31.0f});
 }
 
 TEST_P(DofBlur, holds_in_the_self_test) {
@@ -93,13 +70,13 @@ TEST_P(DofBlur, holds_in_the_self_test) {
 
 TEST_P(DofBlur, equals_the_twin_in_pictures_of_odd_sizes) {
   for (const auto& [width, height] : {std::pair{81u, 67u}, {33u, 1u}, {1u, 35u}, {129u, 17u}})
-    expect_twins(scene(width, height, width), {7.0f, 23.0f});
+    expect_twins(objects_in_depth(width, height, width), {7.0f, 23.0f});
 }
 
 // Hard case: dof.radius_large
 TEST_P(DofBlur, equals_the_twin_where_the_radius_exceeds_the_picture) {
   for (const float circle : {30.0f, -30.0f}) {
-    DofInput in = scene(9, 7, 5);
+    DofInput in = objects_in_depth(9, 7, 5);
     std::ranges::fill(in.coc, circle);
     expect_twins(in, {31.0f});
   }

@@ -36,17 +36,6 @@ struct ProxyCase {
   return settings;
 }
 
-[[nodiscard]] ProxyScene random_proxies(ProxyRandom& random, int count) {
-  ProxyScene scene;
-  for (int i = 0; i < count; ++i) {
-    const dvec3 center(random.between(-8.0, 8.0), random.between(-0.5, 5.0), random.between(-10.0, 8.0));
-    const dvec3 toward = random.one_in(3) ? random.direction() : dvec3(random.between(-1.0, 1.0), 0.0, 1.0);
-    const double wide = random.length(-0.5, 0.8), high = random.length(-0.5, 0.6);
-    scene.add(center, toward, {static_cast<float>(wide), static_cast<float>(high)});
-  }
-  return scene;
-}
-
 /// The hard cases, one each.
 [[nodiscard]] std::vector<ProxyCase> hard_cases() {
   std::vector<ProxyCase> cases;
