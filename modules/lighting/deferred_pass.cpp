@@ -52,6 +52,7 @@ DrawProgram shading_program(LocalLights source, const ShadingInputs& inputs, con
   // Loops with shadows are not unrolled: one pipeline serves any number of directional lights.
   if (!shadowed) program.constants.set("kDirectionalLights", inputs.directional_count);
   if (inputs.specular_ambient_taken) program.constants.set("kSpecularAmbient", 0u);
+  if (inputs.surroundings_follow) program.constants.set("kSpecularAmbient", 2u);
   if (inputs.diffuse_light_wanted) program.constants.set("kDiffuseLight", 1u);
   if (final_lists) {
     program.constants.set(shadows->final_lists->constants);
@@ -88,6 +89,8 @@ void read_inputs(FrameBuilder& frame, DrawPass& pass, const ShadingInputs& input
   pass.read_if_declared("environment", inputs.environment);
   read_geometry(pass, frame.get<GeometryOutputs>());
   read_light_lists(pass, inputs.outputs);
+  const auto* surroundings = frame.find<SurroundingsOutput>();
+  pass.read_if_declared("far_image", surroundings != nullptr ? surroundings->light : ImageRef{});
   if (shadows == nullptr) return;
   read_shadows(pass, *shadows);
   if (shadows->final_lists) read_final_lists(pass, *shadows->final_lists);

@@ -2,6 +2,11 @@
 // SPDX-License-Identifier: MIT
 #include "modules/lighting/environment.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+
 #include "engine/scene/resources.h"
 #include "engine/scene/transmission.h"
 #include "modules/lighting/knobs.h"
@@ -14,6 +19,38 @@ bool plain_highlights(const KnobRegistry& knobs) {
   return !wide_highlights(knobs) && !knobs.value(kSpecularAntialiasing);
 }
 
+namespace {
+
+/// Fog before what surfaces mirror, all of it as far away as the sky.
+void set_fog(const FrameBuilder& frame, shaders::SurroundingsConstants& constants) {
+  constants.fog_through = 1.0f;
+  const HomogeneousFog* fog = frame.find<HomogeneousFog>();
+  if (fog == nullptr) return;
+  constants.fog_through = std::exp(-fog->density * fog->sky_distance_m);
+  constants.fog_light = fog->radiance * (frame.view().light_scale * (1.0f - constants.fog_through));
+}
+
+void add_surroundings(FrameBuilder& frame, ShadingInputs& inputs) {
+  const SurroundingProbes* probes = frame.find<SurroundingProbes>();
+  shaders::SurroundingsConstants constants{};
+  if (probes != nullptr) {
+    inputs.reflects = true;
+    inputs.surroundings_follow = probes->surroundings_follow;
+    inputs.probes = static_cast<std::uint32_t>(probes->rows.size());
+    inputs.probe_images = probes->images;
+    constants.probes = inputs.probes;
+    constants.probe_scale = probes->scale;
+    set_fog(frame, constants);
+    std::copy_n(probes->rows.begin(), std::min<std::size_t>(inputs.probes, GLOAM_FEW_PROBES), constants.few_probes);
+  }
+  inputs.surroundings = frame.upload_uniform(constants);
+  const shaders::ProbeRow none{};
+  const bool any = inputs.probes > 0;
+  inputs.probe_rows = frame.upload_items(any ? std::span<const shaders::ProbeRow>(probes->rows) : std::span(&none, 1));
+}
+
+}  // namespace
+
 const ShadingInputs& shading_inputs(FrameBuilder& frame) {
   if (const ShadingInputs* there = frame.find<ShadingInputs>()) return *there;
   ShadingInputs inputs;
@@ -25,6 +62,7 @@ const ShadingInputs& shading_inputs(FrameBuilder& frame) {
   inputs.diffuse_light_wanted = frame.find<DiffuseLightWanted>() != nullptr;
   inputs.transmission = lets_light_through(frame.world());
   inputs.plain_highlights = plain_highlights(frame.knobs());
+  add_surroundings(frame, inputs);
   if (const LightsOutputs* lights = frame.find<LightsOutputs>()) {
     inputs.directional_count = lights->directional_count;
     inputs.outputs = *lights;
@@ -32,6 +70,22 @@ const ShadingInputs& shading_inputs(FrameBuilder& frame) {
     inputs.outputs.lights = *range;
   }
   return frame.put(inputs);
+}
+
+gpu::SpecConstants surroundings_constants(bool reflects, std::size_t probes) {
+  gpu::SpecConstants constants;
+  if (!reflects) return constants;
+  constants.set("kReflects", 1u);
+  constants.set("kProbes", probe_constant(probes));
+  return constants;
+}
+
+void read_surroundings(ShaderPass& pass, FrameBuilder& frame) {
+  const ShadingInputs& inputs = shading_inputs(frame);
+  pass.read_if_declared("environment", inputs.environment);
+  pass.read_if_declared("surroundings", inputs.surroundings);
+  pass.read_if_declared("probe_rows", inputs.probe_rows);
+  pass.read_if_declared("probe_images", inputs.probe_images, Sampling::linear);
 }
 
 }  // namespace gloam

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/render/declare/shader_pass.h"
 #include "engine/render/frame_builder.h"
 #include "modules/lights/outputs.h"
 
@@ -13,6 +14,12 @@ struct ShadingInputs {
   std::uint32_t directional_count = 0;
   bool specular_ambient_taken = false;  ///< see SpecularAmbientTaken
   bool diffuse_light_wanted = false;    ///< see DiffuseLightWanted
+  bool surroundings_follow = false;     ///< there is a SurroundingsOutput
+  bool reflects = false;                ///< there are SurroundingProbes, perhaps without rows
+  std::uint32_t probes = 0;             ///< rows
+  gpu::Binding::BufferRange surroundings;  ///< SurroundingsConstants
+  gpu::Binding::BufferRange probe_rows;
+  ImageRef probe_images;
   bool transmission = false;            ///< lets_light_through()
   bool plain_highlights = false;        ///< of points at points: neither lights nor pixels have a width
   /// Of the lights module. If the scene has no light: a block without lights, and default values.
@@ -24,5 +31,8 @@ struct ShadingInputs {
 
 /// The frame's ShadingInputs from the board; the first call creates them.
 [[nodiscard]] const ShadingInputs& shading_inputs(FrameBuilder& frame);
+
+/// Constants of surroundings_api.glsl. reflects: there are SurroundingProbes; probes: their rows.
+[[nodiscard]] gpu::SpecConstants surroundings_constants(bool reflects, std::size_t probes);
 
 }  // namespace gloam

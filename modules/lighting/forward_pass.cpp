@@ -45,16 +45,20 @@ SurfacePass choose_version(FrameBuilder& frame) {
     const SurfacePass all_lights = forward_surface_pass({false, best.shadows, best.constants});
     if (best.tiled && frame.has_surfaces(draws, all_lights)) return all_lights;
   }
-  const SurfacePass unshadowed = forward_surface_pass({.tiled = best.tiled});
+  const ShadingInputs& inputs = shading_inputs(frame);
+  const gpu::SpecConstants constants = surroundings_constants(inputs.reflects, inputs.probes);
+  const SurfacePass unshadowed = forward_surface_pass({.tiled = best.tiled, .constants = constants});
   if (!best.tiled || frame.request_surfaces(draws, unshadowed)) return unshadowed;
-  return forward_surface_pass({});
+  return forward_surface_pass({.constants = constants});
 }
 
 }  // namespace
 
 void list_forward_pipelines(const ShadingInputs& inputs, const ShadowsOutputs& shadows,
                             std::span<const SurfaceVariant> variants, PipelineList& list) {
-  const SurfacePass pass = forward_surface_pass(forward_lighting(&inputs.outputs, &shadows));
+  ForwardLighting version = forward_lighting(&inputs.outputs, &shadows);
+  version.constants.set(surroundings_constants(inputs.reflects, inputs.probes).where_present());
+  const SurfacePass pass = forward_surface_pass(version);
   for (const SurfaceVariant& variant : variants) list.push_back(surface_pipeline_desc(pass, variant));
 }
 

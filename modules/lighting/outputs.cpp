@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "modules/lighting/outputs.h"
 
+#include <algorithm>
+
 #include "engine/math/packing.h"
 #include "engine/scene/transmission.h"
 #include "modules/lighting/environment.h"
@@ -22,6 +24,10 @@ vec3 decode_diffuse_light(uvec2 texel) {
   return {half(texel.x), half(texel.x >> 16), half(texel.y)};
 }
 
+std::uint32_t probe_constant(std::size_t rows) {
+  return static_cast<std::uint32_t>(std::min<std::size_t>(rows, GLOAM_FEW_PROBES + 1));
+}
+
 ForwardLighting forward_lighting(const LightsOutputs* lights, const ShadowsOutputs* shadows) {
   ForwardLighting version;
   version.tiled = lights != nullptr && lights->has_lists();
@@ -35,12 +41,14 @@ ForwardLighting forward_lighting(const LightsOutputs* lights, const ShadowsOutpu
 ForwardLighting forward_lighting(const FrameBuilder& frame) {
   ForwardLighting version = forward_lighting(frame.find<LightsOutputs>(), frame.find<ShadowsOutputs>());
   if (lets_light_through(frame.world())) version.constants.set_if_present("kTransmission", 1u);
+  if (const SurroundingProbes* probes = frame.find<SurroundingProbes>())
+    version.constants.set(surroundings_constants(true, probes->rows.size()).where_present());
   return version;
 }
 
 void read_lighting(ShaderPass& pass, FrameBuilder& frame) {
   const ShadingInputs& inputs = shading_inputs(frame);
-  pass.read_if_declared("environment", inputs.environment);
+  read_surroundings(pass, frame);
   read_light_lists(pass, inputs.outputs);
   if (const ShadowsOutputs* shadows = frame.find<ShadowsOutputs>()) read_shadows(pass, *shadows);
 }

@@ -16,6 +16,7 @@
 #include "engine/render/reference/reference.h"
 #include "modules/lights/outputs.h"
 #include "modules/shadows/outputs.h"
+#include "shaders/lighting/probes_shared.h"
 
 namespace gloam {
 
@@ -40,6 +41,26 @@ inline constexpr EnumKnob<Antialiasing> kAntialiasing{
 /// (shaders/lighting/environment_api.glsl) at each pixel with a surface, until that module adds its own term. The sky
 /// and blended surfaces are not affected.
 struct SpecularAmbientTaken {};
+
+/// Captured surroundings of the view, which reflective blended surfaces mirror in place of sky and ground, and opaque
+/// ones in SurroundingsOutput. The module that has them puts this on the board in PassPhase::announce.
+struct SurroundingProbes {
+  std::vector<shaders::ProbeRow> rows;  ///< probes with a box from the smallest to the largest, then the global one
+  ImageRef images;                      ///< octahedral maps, one layer each (probes_api.glsl); null without rows
+  float scale = 1.0f;                   ///< from the light of the images to that of the view
+  bool surroundings_follow = false;     ///< SurroundingsOutput will follow
+};
+
+/// The constant kProbes of shaders that include surroundings_api.glsl, for this number of rows.
+[[nodiscard]] std::uint32_t probe_constant(std::size_t rows);
+
+/// The surroundings that surfaces mirror, from the module with SurroundingProbes, which puts this on the board in
+/// PassPhase::lists: radiance toward the eye before the surface's share, rgba16f, one texel for each block of 2×2
+/// pixels, or each pixel. Deferred lighting uses it for surfaces that reflect weakly (reflects_strongly() in
+/// shaders/lighting/mirror_share_api.glsl). To others it adds no specular ambient light: after it, the module does.
+struct SurroundingsOutput {
+  ImageRef light;
+};
 
 /// Another module needs DiffuseLightOutput. It puts this on the board in PassPhase::announce.
 struct DiffuseLightWanted {};
@@ -112,12 +133,14 @@ struct ForwardLighting {
 /// The version that these inputs call for; either may be null.
 [[nodiscard]] ForwardLighting forward_lighting(const LightsOutputs* lights, const ShadowsOutputs* shadows);
 
-/// The functions below may be called from PassPhase::shading on.
+/// The functions below may be called after the lights module's PassPhase::lists.
 [[nodiscard]] ForwardLighting forward_lighting(const FrameBuilder& frame);
-/// Binds the inputs of environment_api.glsl and forward_lights_api.glsl that the program in use declares: environment,
-/// lights, light_texels, grid, mask_tiles and z_bin_words; with shadows or cookies also those of read_shadows(). The
+/// Binds the inputs of environment_api.glsl, surroundings_api.glsl and forward_lights_api.glsl that the program in use
+/// declares: environment, surroundings, probe_rows, probe_images, lights, light_texels, grid, mask_tiles and z_bin_words; with shadows or cookies also those of read_shadows(). The
 /// program must be a version for this frame, see ForwardLighting.
 void read_lighting(ShaderPass& pass, FrameBuilder& frame);
+/// Binds the inputs of environment_api.glsl and surroundings_api.glsl that the program in use declares.
+void read_surroundings(ShaderPass& pass, FrameBuilder& frame);
 
 /// The reference of a knob: the mean, in linear light, of pictures whose pixels are sampled at different points.
 [[nodiscard]] ReferenceInfo supersampled_reference(std::string knob);

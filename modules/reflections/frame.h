@@ -31,7 +31,6 @@ struct ReflectionPlan {
   bool mirror = false;                       ///< mirror surfaces get a reflection: tiers 1 and 2, or `planar`
   shaders::ReflectionConstants constants{};  ///< without fog
   std::vector<shaders::ProxyRow> proxies;
-  std::vector<shaders::ProbeRow> probes;
   std::vector<shaders::ChangedLight> changed;
   bool no_specular = false;                   ///< for references: nothing is added (ReflectionOverride)
   const TracedReflections* traced = nullptr;  ///< for references: takes the place of all tiers
@@ -53,18 +52,13 @@ struct ProxyInputs {
   ImageRef images;                                 ///< captures, one layer each; null: none
 };
 
-/// Probes that the composite samples.
-struct ProbeInputs {
-  std::span<const shaders::ProbeRow> rows;
-  std::span<const shaders::ChangedLight> changed;  ///< lights that have changed since the capture
-  ImageRef images;                                 ///< captures, one layer each; null: none
-};
-
 /// Tiles of GLOAM_REFLECTION_GROUP texels' side, and those among them that hold a mirror surface.
 struct MirrorTiles {
   ImageRef image;           ///< rg32ui, of all texels: mirror_surface_api.glsl
-  BufferRef commands;       ///< MirrorCommands
-  BufferRef places;         ///< the listed tiles, x | y << 16
+  BufferRef commands;       ///< MirrorCommands of each GLOAM_LIST_…
+  BufferRef places;         ///< the tiles of each list, x | y << 16
+  BufferRef flags;          ///< of every tile: GLOAM_TILE_… bits
+  shaders::MirrorLists lists{};
   BufferRef roughness;      ///< of every tile: 1…255; 0: without a mirror surface
   std::uint32_t count = 0;  ///< of all tiles
 };
@@ -73,6 +67,13 @@ struct MirrorTiles {
 struct MirrorSurfaces {
   MirrorTiles tiles;
   ImageRef surface;  ///< rgba8, cleared in all texels: MirroredLight::surface is written on it
+};
+
+/// Specular ambient light of surfaces that reflect strongly, in tiles of GLOAM_LIST_STRONG: rgba16f of the view's size.
+/// Alpha is mirror_share(); where it is above 0, rgb is the part that mirrored images take the place of, and the lit
+/// picture does not have it yet. 0 for other surfaces. On the board in PassPhase::shading.
+struct StrongAmbient {
+  ImageRef light;
 };
 
 /// Tier 1; null images without it.
@@ -93,7 +94,7 @@ struct ReflectionHandles {
   ReflectionUniforms uniforms;
   ScreenSpaceHits hits;
   MirroredLight light;
-  ImageRef probe_images;
+  ImageRef mirrors;  ///< MirrorTiles::image
 };
 
 }  // namespace gloam

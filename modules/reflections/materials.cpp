@@ -15,10 +15,10 @@ Reflective of_material(const SceneAssets& assets, std::uint32_t material) {
 }  // namespace
 
 Reflective reflective(const Material& material) {
-  if (material.alpha_mode == AlphaMode::blend) return Reflective::no;
   if (material.reflectivity == 0.0f) return Reflective::no;
   const bool textured = material.metallic_roughness_texture.texture != kNone;
-  const bool smooth = material.roughness < kTooRoughForMirrors || textured;
+  const bool solid = material.alpha_mode != AlphaMode::blend;
+  const bool smooth = solid && (material.roughness < kTooRoughForMirrors || textured);
   if (material.reflectivity < 0.0f && material.roughness >= 1.0f && !textured) return Reflective::no;
   return smooth ? Reflective::mirror : Reflective::rough;
 }
@@ -38,9 +38,10 @@ ReflectiveMaterials count_reflective(const SceneAssets& assets) {
   return count;
 }
 
-Reflective strongest_reflection(const SceneAssets& assets, std::span<const Draw> solid) {
+Reflective strongest_reflection(const SceneAssets& assets, const ViewDraws& draws) {
   Reflective strongest = Reflective::no;
-  for (const Draw& draw : solid) strongest = std::max(strongest, of_material(assets, draw.primitive->material));
+  for (const std::span<const Draw> list : {std::span<const Draw>(draws.solid), std::span<const Draw>(draws.blended)})
+    for (const Draw& draw : list) strongest = std::max(strongest, of_material(assets, draw.primitive->material));
   return strongest;
 }
 

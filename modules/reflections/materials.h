@@ -16,8 +16,8 @@ inline constexpr float kTooRoughForMirrors = 0.4f;
 
 /// How a material can take part in reflections.
 enum class Reflective : std::uint8_t {
-  no,      ///< reflectivity 0, or blended
-  rough,   ///< shows probes alone
+  no,      ///< reflectivity 0
+  rough,   ///< shows probes alone; also smooth blended surfaces
   mirror,  ///< smooth enough for screen space and proxies
 };
 
@@ -32,6 +32,6 @@ struct ReflectiveMaterials {
 [[nodiscard]] ReflectiveMaterials count_reflective(const SceneAssets& assets);
 
 /// The strongest of the materials that a view draws.
-[[nodiscard]] Reflective strongest_reflection(const SceneAssets& assets, std::span<const Draw> solid);
+[[nodiscard]] Reflective strongest_reflection(const SceneAssets& assets, const ViewDraws& draws);
 
 }  // namespace gloam

@@ -70,23 +70,35 @@ ReflectionUniforms upload_uniforms(FrameBuilder& frame, const ReflectionPlan& pl
     constants.fog_sky_m = fog->sky_distance_m;
   }
   const auto& tiles = frame.world().view_resource<ProxyTiles>(frame.view().id);
+  const auto probes = static_cast<std::uint32_t>(frame.get<SurroundingProbes>().rows.size());
   return {.constants = constants,
           .block = frame.upload_uniform(constants),
           .tiles = frame.upload_uniform(shaders::ProxyTileConstants{tiles.tiles, tiles.words_per_tile,
                                                                     static_cast<std::uint32_t>(plan.proxies.size()),
-                                                                    static_cast<std::uint32_t>(plan.probes.size())})};
+                                                                    probes})};
 }
 
-/// Tiers 1 and 2, or the mirrored picture in their place.
-struct MirrorReflections {
+/// The probes of the view, for lighting.
+SurroundingProbes surrounding_probes(FrameBuilder& frame, Staging& staging) {
+  const World& world = frame.world();
+  const auto& captures = world.resource<ReflectionCaptures>();
+  SurroundingProbes probes;
+  probes.rows = probe_rows(world, frame.view(), captures);
+  if (!probes.rows.empty())
+    probes.images = upload_captures(frame, staging, "reflection_probes", captures.probes, captures.version);
+  probes.scale = frame.view().light_scale / captures.light_scale;
+  return probes;
+}
+
+/// The surfaces of the view that reflect. On the board from PassPhase::lists to shading.
+struct FoundSurfaces {
+  ReflectionUniforms uniforms;
   MirrorTiles tiles;
-  ScreenSpaceHits hits;
-  MirroredLight light;
-  ImageRef upscaled;  ///< add_sharpen_pass()
 };
 
-MirrorReflections add_mirror_passes(FrameBuilder& frame, Staging& staging, const ReflectionPlan& plan,
-                                    const ReflectionUniforms& uniforms) {
+/// Tiers 1 and 2, or the mirrored picture in their place.
+void add_mirror_passes(FrameBuilder& frame, Staging& staging, const ReflectionPlan& plan,
+                       const ReflectionUniforms& uniforms, const MirrorSurfaces& surfaces) {
   const ReflectionKnobs& knobs = plan.knobs;
   const auto& captures = frame.world().resource<ReflectionCaptures>();
   ProxyInputs proxies{.rows = plan.proxies,
@@ -94,86 +106,84 @@ MirrorReflections add_mirror_passes(FrameBuilder& frame, Staging& staging, const
                       .changed = plan.changed};
   if (knobs.proxies)
     proxies.images = upload_captures(frame, staging, "reflection_proxies", captures.proxies, captures.version);
-  const MirrorSurfaces surfaces = add_mirror_surface_pass(frame, uniforms);
   ScreenSpaceHits hits;
   if (knobs.screen_space) hits = add_screen_space_pass(frame, knobs, uniforms, surfaces.tiles);
   MirroredLight light = plan.planar ? add_planar_pass(frame, knobs, uniforms, surfaces, *plan.planar)
                                     : add_proxy_pass(frame, knobs, uniforms, surfaces, hits, proxies);
   if (knobs.temporal) light = add_temporal_pass(frame, uniforms, surfaces.tiles, light);
   if (knobs.blur) light = add_glossy_passes(frame, uniforms, surfaces.tiles, light);
-  const ImageRef upscaled = add_sharpen_pass(frame, uniforms, surfaces.tiles, hits, light);
-  return {surfaces.tiles, hits, light, upscaled};
+  add_composite_pass(frame, uniforms, surfaces, hits, light);
+  frame.put(ReflectionHandles{uniforms, hits, light, surfaces.tiles.image});
 }
 
 }  // namespace
 
-void announce_reflections(FrameBuilder& frame) {
+void announce_reflections(FrameBuilder& frame, Staging& staging) {
   const ReflectionKnobs knobs = reflection_knobs(frame.knobs());
   if (knobs.mode == ReflectionKnobs::Mode::off) return;
   const World& world = frame.world();
   const RenderView& view = frame.view();
   const auto* change = world.try_resource<ReflectionOverride>();
-  const Reflective seen = strongest_reflection(world.resource<SceneAssets>(), frame.draws().solid);
+  const Reflective seen = strongest_reflection(world.resource<SceneAssets>(), frame.draws());
   if (seen == Reflective::no) return;
   const auto& captures = world.resource<ReflectionCaptures>();
+  SurroundingProbes probes = surrounding_probes(frame, staging);
   ReflectionPlan plan;
   plan.knobs = knobs;
   plan.planar = drawn_planar_mirror(frame);
   plan.traced = traced_of(world, view);
-  plan.mirror = plan.traced == nullptr && seen == Reflective::mirror && (knobs.mirror() || plan.planar);
-  plan.probes = probe_rows(world, view, captures);
   plan.no_specular = change != nullptr && *change == ReflectionOverride::no_specular;
-  if (!plan.mirror && plan.probes.empty() && !plan.no_specular && plan.traced == nullptr) return;
+  const bool reference = plan.no_specular || plan.traced != nullptr;
+  plan.mirror = !reference && seen == Reflective::mirror && (knobs.mirror() || plan.planar);
+  if (!plan.mirror && probes.rows.empty() && !reference) return;
   plan.constants = constants_of(view, knobs, static_cast<float>(scene_unit(frame.world())));
   plan.constants.capture_scale = view.light_scale / captures.light_scale;
   if (knobs.proxies)
     plan.proxies = proxy_rows(world, view, world.resource<ProxySet>(), world.view_resource<ProxyTiles>(view.id),
                               captures, knobs.naive);
-  if (knobs.light_scale) plan.changed = changed_lights(world, view, captures);
-  plan.constants.changed_lights = static_cast<std::uint32_t>(plan.changed.size());
-  if (!plan.changed.empty()) frame.put(DiffuseLightWanted{});
   if (plan.mirror && !plan.planar && knobs.screen_space && !frame.draws().blended.empty())
     frame.put(BlendedLayerWanted{});
-  frame.put(SpecularAmbientTaken{});
+  probes.surroundings_follow = !reference;
+  frame.put(std::move(probes));
+  if (reference) frame.put(SpecularAmbientTaken{});
   frame.put(std::move(plan));
+}
+
+void add_reflection_list_passes(FrameBuilder& frame) {
+  const ReflectionPlan* plan = frame.find<ReflectionPlan>();
+  if (plan == nullptr || plan->no_specular || plan->traced != nullptr) return;
+  const ReflectionUniforms uniforms = upload_uniforms(frame, *plan);
+  frame.put(FoundSurfaces{uniforms, add_surface_passes(frame, uniforms)});
 }
 
 void add_reflection_passes(FrameBuilder& frame, Staging& staging) {
   const ReflectionPlan* plan = frame.find<ReflectionPlan>();
   if (plan == nullptr || plan->no_specular) return;
-  const auto& captures = frame.world().resource<ReflectionCaptures>();
-  const ReflectionUniforms uniforms = upload_uniforms(frame, *plan);
-  ImageRef traced;
-  if (plan->traced != nullptr) traced = upload_traced(frame, staging, *plan->traced);
-  MirrorReflections mirrors;
-  if (plan->mirror) mirrors = add_mirror_passes(frame, staging, *plan, uniforms);
-  ProbeInputs probes{.rows = plan->probes, .changed = plan->changed};
-  if (!plan->probes.empty())
-    probes.images = upload_captures(frame, staging, "reflection_probes", captures.probes, captures.version);
-  add_composite_pass(frame, uniforms, {mirrors.tiles, mirrors.upscaled, probes, traced});
-  frame.put(ReflectionHandles{uniforms, mirrors.hits, mirrors.light, probes.images});
+  if (plan->traced != nullptr) return add_traced_light_pass(frame, upload_traced(frame, staging, *plan->traced));
+  const auto& [uniforms, tiles] = frame.get<FoundSurfaces>();
+  const MirrorSurfaces surfaces = add_surroundings_passes(frame, uniforms, tiles, plan->mirror);
+  if (plan->mirror) return add_mirror_passes(frame, staging, *plan, uniforms, surfaces);
+  frame.put(ReflectionHandles{.uniforms = uniforms, .hits = {}, .light = {}, .mirrors = {}});
 }
 
 void list_reflection_pipelines(const ReflectionKnobs& knobs, bool direct, bool blended, std::size_t probes,
                                PipelineList& list) {
+  const bool planar = knobs.mode == ReflectionKnobs::Mode::planar;
   if (knobs.mode == ReflectionKnobs::Mode::off) return;
   const auto add = [&](const ComputeProgram& program) { list.push_back(pipeline_desc(program, "reflections")); };
-  const bool planar = knobs.mode == ReflectionKnobs::Mode::planar, mirror = knobs.mirror() || planar;
-  if (mirror) add(mirror_surface_program());
-  if (knobs.screen_space) add(screen_space_program(knobs, blended));
-  if (knobs.mirror()) add(proxy_program(knobs));
-  if (planar) add(planar_program(knobs));
-  if (mirror) add(sharpen_program(knobs.screen_space && !planar));
-  if (mirror && knobs.temporal) add(temporal_program());
-  if (mirror && knobs.blur)
+  add(surface_program(probes));
+  for (const bool mirrors : {false, true}) add(list_tiles_program(mirrors));
+  add(surroundings_program(knobs.mirror() || planar, probes));
+  if (!knobs.mirror() && !planar) return;
+  if (knobs.screen_space) add(screen_space_program(knobs, blended, probes));
+  add(planar ? planar_program(knobs) : proxy_program(knobs));
+  if (knobs.temporal) add(temporal_program());
+  if (knobs.blur)
     for (const bool columns : {false, true}) {
       add(dilate_program(columns, direct));
       add(blur_program(columns, direct));
     }
-  const gpu::Format formats[] = {gpu::Format::rgba16_float};
-  for (const bool tiles : {false, true})
-    list.push_back(pipeline_desc(composite_program(mirror && tiles, probes, tiles), "reflections", formats,
-                                 gpu::Format::d32_float));
+  for (const bool bumpy : {false, true}) add(composite_program(knobs.screen_space, bumpy));
 }
 
 }  // namespace gloam

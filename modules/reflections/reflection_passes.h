@@ -10,11 +10,14 @@
 
 namespace gloam {
 
-/// PassPhase::announce: puts ReflectionPlan on the board and takes over the specular ambient term, if a visible
-/// material reflects.
-void announce_reflections(FrameBuilder& frame);
+/// PassPhase::announce: puts ReflectionPlan and SurroundingProbes on the board, if a visible material
+/// reflects.
+void announce_reflections(FrameBuilder& frame, Staging& staging);
 
-/// PassPhase::shading, after lighting: adds the reflections to LitOutput and puts ReflectionHandles on the board.
+/// PassPhase::lists: finds the surfaces that reflect, and what they mirror of their surroundings.
+void add_reflection_list_passes(FrameBuilder& frame);
+
+/// PassPhase::shading, after lighting: adds mirrored images to LitOutput and puts ReflectionHandles on the board.
 void add_reflection_passes(FrameBuilder& frame, Staging& staging);
 
 /// Pipelines that add_reflection_passes() uses with these knobs in a world with proxies. direct: on a device that runs

@@ -33,9 +33,14 @@ uvec2 encode_mirror_surface(MirrorSurface s, ivec2 texel) {
   return uvec2(floatBitsToUint(s.depth), packed);
 }
 
+// The pixel that a texel stands for.
+ivec2 mirror_pixel_of(uvec2 stored, ivec2 texel) {
+  return texel * int(reflection.scale) + ivec2(stored.y >> 16 & 1u, stored.y >> 17 & 1u);
+}
+
 MirrorSurface decode_mirror_surface(uvec2 stored, ivec2 texel) {
   MirrorSurface s;
-  s.pixel = texel * int(reflection.scale) + ivec2(stored.y >> 16 & 1u, stored.y >> 17 & 1u);
+  s.pixel = mirror_pixel_of(stored, texel);
   s.depth = uintBitsToFloat(stored.x);
   s.share = float(stored.y & 255u) / 255.0;
   s.roughness = float(stored.y >> 8 & 255u) / 255.0;

@@ -4,6 +4,7 @@
 #define GLOAM_SHADERS_REFLECTIONS_REFLECTIONS_SHARED_H
 
 #include "shaders/common/prelude.h"
+#include "shaders/lighting/probes_shared.h"
 
 GLOAM_SHARED_BEGIN
 
@@ -43,6 +44,13 @@ struct MirrorCommands {
   uint count;  // tiles
 };
 
+/// Where the lists of tiles lie in their buffers.
+struct MirrorLists {
+  uint tiles;          // of the reflection images
+  uint command_words;  // from a list's MirrorCommands to the next one's
+  uint place_words;    // from a list's first place to the next one's
+};
+
 /// A reflection proxy as the view sees it. Positions are relative to the camera.
 struct ProxyRow {
   vec3 center;
@@ -67,18 +75,6 @@ struct ProxyTileConstants {
   uint probes;   // rows of cube probes
 };
 
-/// A cube probe as the view sees it.
-struct ProbeRow {
-  vec3 center;  // relative to the camera
-  float layer;
-  vec3 to_x;   // dot(to_x, p − center): −1…1 inside the influence box
-  float fade;  // share of the half size over which the influence fades toward the faces
-  vec3 to_y;
-  float global;  // 1: without a box
-  vec3 to_z;
-  float unused;
-};
-
 /// A light that differs from its state at the time of capture; otherwise as LocalLight and DirectionalLight.
 struct ChangedLight {
   vec3 position;  // relative to the camera
@@ -92,8 +88,20 @@ struct ChangedLight {
 
 GLOAM_SHARED_END
 
+// Flags of a tile of GLOAM_REFLECTION_GROUP texels' side.
+#define GLOAM_TILE_MIRROR 1u  // holds a surface that mirrored images serve
+#define GLOAM_TILE_BUMPY 2u   // whose shading normal is not vertical
+#define GLOAM_TILE_STRONG 4u  // holds a surface that reflects strongly
+#define GLOAM_FLAT_MIRROR 0.99999  // y of the shading normal from which on it counts as vertical
+
+// Lists of tiles.
+#define GLOAM_LIST_MIRRORS 0u
+#define GLOAM_LIST_FLAT 1u    // of GLOAM_LIST_MIRRORS: not bumpy
+#define GLOAM_LIST_BUMPY 2u   // the others of these
+#define GLOAM_LIST_STRONG 3u  // those of GLOAM_LIST_MIRRORS among them
+#define GLOAM_TILE_LISTS 4u
+
 #define GLOAM_TILE_ROW 64
-#define GLOAM_FEW_PROBES 6
 #define GLOAM_REFLECTION_GROUP 8
 #define GLOAM_BLUR_GROUP 64        // texels of a row or column that a workgroup blurs
 #define GLOAM_MOST_BLUR_RADIUS 32  // texels

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
+#include "modules/lighting/outputs.h"
 #include "modules/reflections/debug/pick.h"
 
 #include <algorithm>
@@ -80,7 +81,8 @@ std::vector<std::string> reflection_pick_lines(const FrameBuilder& frame, const 
   const ReflectionPlan* plan = frame.find<ReflectionPlan>();
   const ReflectionHandles* drawn = frame.find<ReflectionHandles>();
   if (plan == nullptr || drawn == nullptr || !(pixel.depth > 0.0f)) return {};
-  const char* beyond = plan->probes.empty() ? "the sky" : "probes";
+  const auto* probes = frame.find<SurroundingProbes>();
+  const char* beyond = probes == nullptr || probes->rows.empty() ? "the sky" : "probes";
   if (!plan->mirror) return {std::string("reflection: ") + beyond};
   const shaders::ReflectionConstants& c = plan->constants;
   const uvec2 texel = glm::min(uvec2(pixel.x, pixel.y) / c.scale, c.size - 1u);

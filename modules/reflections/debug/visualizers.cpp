@@ -61,12 +61,14 @@ void add_reflection_view_pass(FrameBuilder& frame) {
   pass.read("ssr_color", drawn->hits.color);
   pass.read("color_image", drawn->light.color);
   pass.read_if_declared("surface_image", drawn->light.surface);
-  pass.read("probe_images", drawn->probe_images, Sampling::linear);
+  const SurroundingProbes& probes = frame.get<SurroundingProbes>();
+  pass.read("probe_images", probes.images, Sampling::linear);
+  pass.read("mirror_image", drawn->mirrors);
   bind_rows<shaders::ProxyRow>(pass, "proxy_rows", plan->proxies);
   bind_rows<std::uint32_t>(pass, "proxy_masks", frame.world().view_resource<ProxyTiles>(frame.view().id).masks);
-  bind_rows<shaders::ProbeRow>(pass, "probe_rows", plan->probes);
+  bind_rows<shaders::ProbeRow>(pass, "probe_rows", probes.rows);
   const std::uint32_t tiers = (drawn->hits.color ? 1u : 0u) | (plan->mirror && plan->knobs.proxies ? 2u : 0u) |
-                              (plan->probes.empty() ? 0u : 4u);
+                              (probes.rows.empty() ? 0u : 4u) | (drawn->mirrors ? 8u : 0u);
   pass.push(tiers);
   add_visualizer_targets(frame, pass, *shown, gpu::Format::rgba16_float);
   pass.draw_triangle();

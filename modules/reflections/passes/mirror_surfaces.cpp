@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "modules/lighting/outputs.h"
 #include "shaders/reflections/shaders.h"
 
 namespace gloam {
@@ -17,47 +18,118 @@ BufferRef tile_buffer(FrameBuilder& frame, const char* name, std::uint64_t words
   return frame.graph().create_buffer(desc);
 }
 
+// Parts of a buffer begin at multiples of this many words, as devices ask for.
+constexpr std::uint32_t kPartWords = 64;
+
+/// Empties the buffers that the passes count in.
+void start_lists(FrameBuilder& frame, MirrorTiles& tiles) {
+  tiles.lists = {.tiles = tiles.count,
+                 .command_words = kPartWords,
+                 .place_words = (tiles.count + kPartWords - 1) / kPartWords * kPartWords};
+  const std::uint32_t words = GLOAM_TILE_LISTS * kPartWords;
+  PassBuilder start = frame.graph().add_pass("reflection_start", frame.module());
+  const auto empty = [&](const char* name, std::uint32_t size) {
+    return start.write(tile_buffer(frame, name, size), gpu::Access::transfer_write);
+  };
+  tiles.commands = empty("reflection_commands", words);
+  tiles.roughness = empty("reflection_tile_roughness", tiles.count);
+  tiles.flags = empty("reflection_tile_flags", tiles.count);
+  tiles.places = tile_buffer(frame, "reflection_tiles", std::uint64_t{GLOAM_TILE_LISTS} * tiles.lists.place_words);
+  start.execute([commands = tiles.commands, roughness = tiles.roughness, flags = tiles.flags,
+                 bytes = tiles.count * sizeof(std::uint32_t)](PassContext& context) {
+    constexpr std::uint32_t kNoTile[] = {GLOAM_TILE_ROW, 0, 1, 0};
+    for (std::uint32_t list = 0; list < GLOAM_TILE_LISTS; ++list)
+      for (std::uint32_t i = 0; i < 4; ++i)
+        context.commands().fill_buffer(context.buffer(commands), 4 * (list * kPartWords + i), 4, kNoTile[i]);
+    context.commands().fill_buffer(context.buffer(roughness), 0, bytes, 0);
+    context.commands().fill_buffer(context.buffer(flags), 0, bytes, 0);
+  });
+}
+
+void list_tiles(FrameBuilder& frame, const ReflectionUniforms& uniforms, MirrorTiles& tiles, bool mirrors) {
+  ComputePass pass(frame, mirrors ? "reflection_mirror_tiles" : "reflection_strong_tiles", list_tiles_program(mirrors));
+  pass.read("reflection", uniforms.block);
+  pass.read("tile_flags", tiles.flags);
+  pass.push(tiles.lists);
+  tiles.commands = pass.write("commands", tiles.commands);
+  tiles.places = pass.write("places", tiles.places);
+  pass.dispatch_over(uvec2(tiles.count, 1));
+}
+
 }  // namespace
 
-ComputeProgram mirror_surface_program() { return {shaders::reflections::mirror_surfaces_comp}; }
+ComputeProgram surface_program(std::size_t probes) {
+  return {shaders::reflections::surfaces_comp, {{"kProbes", probe_constant(probes)}}};
+}
 
-MirrorSurfaces add_mirror_surface_pass(FrameBuilder& frame, const ReflectionUniforms& uniforms) {
+ComputeProgram list_tiles_program(bool mirrors) {
+  return {shaders::reflections::list_tiles_comp, {{"kMirrors", mirrors ? 1u : 0u}}};
+}
+
+ComputeProgram surroundings_program(bool mirrors, std::size_t probes) {
+  return {shaders::reflections::surroundings_comp,
+          {{"kMirrors", mirrors ? 1u : 0u}, {"kProbes", probe_constant(probes)}}};
+}
+
+MirrorTiles add_surface_passes(FrameBuilder& frame, const ReflectionUniforms& uniforms) {
+  MirrorTiles tiles;
   const uvec2 size = uniforms.constants.size;
   const uvec2 groups = (size + std::uint32_t{GLOAM_REFLECTION_GROUP} - 1u) / std::uint32_t{GLOAM_REFLECTION_GROUP};
-  const std::uint32_t count = groups.x * groups.y;
-  PassBuilder start = frame.graph().add_pass("reflection_start", frame.module());
-  const BufferRef commands = start.write(tile_buffer(frame, "reflection_commands", 4), gpu::Access::transfer_write);
-  const BufferRef roughness =
-      start.write(tile_buffer(frame, "reflection_tile_roughness", count), gpu::Access::transfer_write);
-  start.execute([commands, roughness, bytes = count * sizeof(std::uint32_t)](PassContext& context) {
-    constexpr std::uint32_t kNoTile[] = {GLOAM_TILE_ROW, 0, 1, 0};
-    for (std::uint32_t i = 0; i < 4; ++i)
-      context.commands().fill_buffer(context.buffer(commands), 4 * i, 4, kNoTile[i]);
-    context.commands().fill_buffer(context.buffer(roughness), 0, bytes, 0);
-  });
+  tiles.count = groups.x * groups.y;
+  start_lists(frame, tiles);
+  {
+    ComputePass pass(frame, "reflection_surfaces", surface_program(frame.get<SurroundingProbes>().rows.size()));
+    pass.read("reflection", uniforms.block);
+    read_geometry(pass, frame.get<GeometryOutputs>());
+    read_surroundings(pass, frame);
+    const ImageRef far =
+        create_view_image(frame, "surroundings", gpu::Format::rgba16_float, uniforms.constants.scale);
+    frame.put(SurroundingsOutput{pass.write("far_image", far)});
+    tiles.flags = pass.write("tile_flags", tiles.flags);
+    pass.dispatch_over(size);
+  }
+  list_tiles(frame, uniforms, tiles, false);
+  return tiles;
+}
 
+MirrorSurfaces add_surroundings_passes(FrameBuilder& frame, const ReflectionUniforms& uniforms, MirrorTiles tiles,
+                                       bool mirrors) {
   MirrorSurfaces found;
-  ComputePass pass(frame, "reflection_surfaces", mirror_surface_program());
-  pass.read("reflection", uniforms.block);
-  read_geometry(pass, frame.get<GeometryOutputs>());
-  const std::uint32_t scale = uniforms.constants.scale;
-  found.tiles.image =
-      pass.write("mirror_image", create_view_image(frame, "reflection_mirrors", gpu::Format::rg32_uint, scale));
-  found.surface =
-      pass.write("surface_image", create_view_image(frame, "reflection_surface", gpu::Format::rgba8_unorm, scale));
-  found.tiles.commands = pass.write("mirror_commands", commands);
-  found.tiles.places = pass.write("mirror_tiles", tile_buffer(frame, "reflection_tiles", count));
-  found.tiles.roughness = pass.write("tile_roughness", roughness);
-  found.tiles.count = count;
-  pass.dispatch_over(size);
+  {
+    ComputePass pass(frame, "reflection_surroundings",
+                     surroundings_program(mirrors, frame.get<SurroundingProbes>().rows.size()));
+    pass.read("reflection", uniforms.block);
+    read_geometry(pass, frame.get<GeometryOutputs>());
+    read_surroundings(pass, frame);
+    LitOutput& lit = frame.get<LitOutput>();
+    lit.color = pass.write("lit_image", lit.color);
+    const ImageRef ambient = create_view_image(frame, "strong_ambient", gpu::Format::rgba16_float);
+    frame.put(StrongAmbient{pass.write("ambient_image", ambient)});
+    const auto image = [&](const char* name, gpu::Format format) {
+      return mirrors ? create_view_image(frame, name, format, uniforms.constants.scale) : ImageRef{};
+    };
+    tiles.image = pass.write("mirror_image", image("reflection_mirrors", gpu::Format::rg32_uint));
+    found.surface = pass.write("surface_image", image("reflection_surface", gpu::Format::rgba8_unorm));
+    tiles.roughness = pass.write("tile_roughness", tiles.roughness);
+    tiles.flags = pass.write("tile_flags", tiles.flags);
+    dispatch_listed_tiles(pass, tiles, GLOAM_LIST_STRONG);
+  }
+  if (mirrors) list_tiles(frame, uniforms, tiles, true);
+  found.tiles = tiles;
   return found;
 }
 
-void dispatch_mirror_tiles(ComputePass& pass, const MirrorTiles& tiles) {
+void dispatch_mirror_tiles(ComputePass& pass, const MirrorTiles& tiles, std::uint32_t list) {
   if (pass.declares("mirror_image")) pass.read("mirror_image", tiles.image);
-  pass.read("mirror_commands", tiles.commands);
-  pass.read("mirror_tiles", tiles.places);
-  pass.dispatch_indirect(tiles.commands, 0);
+  dispatch_listed_tiles(pass, tiles, list);
+}
+
+void dispatch_listed_tiles(ComputePass& pass, const MirrorTiles& tiles, std::uint32_t list) {
+  constexpr std::uint64_t kWord = sizeof(std::uint32_t);
+  const std::uint64_t command = list * kWord * tiles.lists.command_words, bytes = kWord * tiles.lists.place_words;
+  pass.read_part("mirror_commands", tiles.commands, command, sizeof(shaders::MirrorCommands));
+  pass.read_part("mirror_tiles", tiles.places, list * bytes, bytes);
+  pass.dispatch_indirect(tiles.commands, command);
 }
 
 }  // namespace gloam

@@ -2,18 +2,31 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 #include "engine/render/declare/compute_pass.h"
 #include "modules/reflections/frame.h"
 
 namespace gloam {
 
-[[nodiscard]] ComputeProgram mirror_surface_program();
+/// probes: number of captured probes. mirrors: whether there are mirrored images.
+[[nodiscard]] ComputeProgram surface_program(std::size_t probes);
+[[nodiscard]] ComputeProgram list_tiles_program(bool mirrors);
+[[nodiscard]] ComputeProgram surroundings_program(bool mirrors, std::size_t probes);
 
-/// Finds the surfaces that screen space and proxies serve, and lists the tiles that hold one.
-[[nodiscard]] MirrorSurfaces add_mirror_surface_pass(FrameBuilder& frame, const ReflectionUniforms& uniforms);
+/// Puts SurroundingsOutput on the board, and lists the tiles that hold surfaces that reflect strongly.
+[[nodiscard]] MirrorTiles add_surface_passes(FrameBuilder& frame, const ReflectionUniforms& uniforms);
 
-/// Binds the list of tiles and the image of mirror surfaces, as shaders/reflections/mirror_surface_api.glsl names them,
-/// and dispatches one workgroup per listed tile.
-void dispatch_mirror_tiles(ComputePass& pass, const MirrorTiles& tiles);
+/// After lighting: adds the specular ambient light of surfaces that reflect strongly to LitOutput, but for what mirrored
+/// images take the place of, and puts StrongAmbient on the board. mirrors: also finds the surfaces that mirrored images
+/// serve, and lists their tiles; otherwise the result has no images.
+[[nodiscard]] MirrorSurfaces add_surroundings_passes(FrameBuilder& frame, const ReflectionUniforms& uniforms,
+                                                     MirrorTiles tiles, bool mirrors);
+
+/// Binds a list of tiles (GLOAM_LIST_…), as shaders/reflections/mirror_surface_api.glsl names it, and dispatches one
+/// workgroup per listed tile. The first function also binds the image of mirror surfaces.
+void dispatch_mirror_tiles(ComputePass& pass, const MirrorTiles& tiles, std::uint32_t list = GLOAM_LIST_MIRRORS);
+void dispatch_listed_tiles(ComputePass& pass, const MirrorTiles& tiles, std::uint32_t list);
 
 }  // namespace gloam

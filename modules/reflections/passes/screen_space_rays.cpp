@@ -8,17 +8,19 @@
 
 namespace gloam {
 
-ComputeProgram screen_space_program(const ReflectionKnobs& knobs, bool blended) {
+ComputeProgram screen_space_program(const ReflectionKnobs& knobs, bool blended, std::size_t probes) {
   return {blended ? shaders::reflections::screen_space_rays_blended_comp : shaders::reflections::screen_space_rays_comp,
-          {{"kHierarchical", knobs.hierarchical ? 1u : 0u}}};
+          {{"kHierarchical", knobs.hierarchical ? 1u : 0u}, {"kProbes", probe_constant(probes)}}};
 }
 
 ScreenSpaceHits add_screen_space_pass(FrameBuilder& frame, const ReflectionKnobs& knobs,
                                       const ReflectionUniforms& uniforms, const MirrorTiles& tiles) {
   const BlendedLayer* blended = frame.find<BlendedLayer>();
-  ComputePass pass(frame, "reflection_screen_space", screen_space_program(knobs, blended != nullptr));
+  ComputePass pass(frame, "reflection_screen_space", screen_space_program(knobs, blended != nullptr, frame.get<SurroundingProbes>().rows.size()));
   pass.read("reflection", uniforms.block);
   read_geometry(pass, frame.get<GeometryOutputs>());
+  read_surroundings(pass, frame);
+  pass.read("ambient_image", frame.get<StrongAmbient>().light);
   pass.read("lit_image", frame.get<LitOutput>().color);
   if (blended != nullptr) {
     pass.read("blended_light", blended->light);

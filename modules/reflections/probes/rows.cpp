@@ -6,11 +6,32 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/math/packing.h"
 #include "engine/scene/components.h"
 #include "modules/reflections/components.h"
 #include "modules/reflections/culling/placed.h"
 
 namespace gloam {
+
+namespace {
+
+/// Mean of the texels of the last mip, which is prefiltered for roughness 1, about the middle of a probe's map (up) or
+/// its corners (down).
+vec4 mean_about(const CapturedLayers& probes, std::size_t layer, bool up) {
+  const std::uint32_t mip = probes.mips - 1, side = std::max(probes.side >> mip, 1u);
+  const std::size_t first = layer * probes.layer_halves() + probes.mip_offset(mip);
+  vec4 sum(0.0f);
+  for (const std::uint32_t y : {0u, 1u})
+    for (const std::uint32_t x : {0u, 1u}) {
+      const std::uint32_t row = up ? (side - 1 + y) / 2 : y * (side - 1);
+      const std::uint32_t column = up ? (side - 1 + x) / 2 : x * (side - 1);
+      const std::size_t texel = first + 4 * (std::size_t{row} * side + column);
+      for (int c = 0; c < 3; ++c) sum[c] += 0.25f * half_to_float(probes.texels[texel + static_cast<std::size_t>(c)]);
+    }
+  return sum;
+}
+
+}  // namespace
 
 std::vector<shaders::ProbeRow> probe_rows(const World& world, const RenderView& view,
                                           const ReflectionCaptures& captures) {
@@ -27,6 +48,8 @@ std::vector<shaders::ProbeRow> probe_rows(const World& world, const RenderView& 
     Ordered next;
     next.row.layer = static_cast<float>(i);
     next.row.fade = kProbeFade;
+    next.row.above = mean_about(captures.probes, i, true);
+    next.row.below = mean_about(captures.probes, i, false);
     next.row.center = view.relative(dvec3(transform->matrix[3]));
     next.row.global = probe->global ? 1.0f : 0.0f;
     next.volume = std::numeric_limits<double>::infinity();

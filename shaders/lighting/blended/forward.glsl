@@ -14,8 +14,15 @@ layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
 
 #define GLOAM_FORWARD_BINDING 1
 #include "shaders/lighting/forward_lights_api.glsl"
+#define GLOAM_SURROUNDINGS_BINDING 24
+#include "shaders/lighting/surroundings_api.glsl"
 
 layout(location = 0) out vec4 out_light;
+
+vec3 surrounding_light(ShadingPoint p, Surface s) {
+  if (kReflects == 0u) return ambient(environment, p, s.roughness, s.occlusion);
+  return s.occlusion * (diffuse_ambient(environment, p) + specular_surroundings(p, s.roughness, s.reflectivity));
+}
 
 void main() {
   vec3 to_eye = normalize(to_viewer(view, in_relative));
@@ -24,7 +31,7 @@ void main() {
   p.normal_spread = s.normal_spread;
   set_receiver(in_relative, s.face_normal, s.subsurface);
   if (kTransmission != 0u) extinction_m = decode_extinction(s.extinction_root);
-  vec3 light = s.emissive + ambient(environment, p, s.roughness, s.occlusion);
+  vec3 light = s.emissive + surrounding_light(p, s);
   add_forward_lights(light, p, uvec2(gl_FragCoord.xy));
   out_light = vec4(min(light, vec3(65504.0)), s.base_color.a);
   if ((kSurface & GLOAM_SURFACE_CLIPPED) != 0u && is_clipped(view, in_relative)) discard;

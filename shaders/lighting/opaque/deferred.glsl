@@ -4,6 +4,7 @@
 #define GLOAM_SHADERS_LIGHTING_OPAQUE_DEFERRED_GLSL
 
 #include "shaders/lighting/environment_api.glsl"
+#include "shaders/lighting/mirror_share_api.glsl"
 #include "shaders/lights/lights_api.glsl"
 #include "shaders/render/gbuffer_api.glsl"
 #include "shaders/render/view_api.glsl"
@@ -12,7 +13,7 @@
 // shadows or cookies, which define local_lights.
 
 layout(constant_id = 1) const uint kDirectionalLights = 0u;  // a constant of the pipeline, so that the loop is unrolled
-layout(constant_id = 3) const uint kSpecularAmbient = 1u;    // 0: without the specular ambient term
+layout(constant_id = 3) const uint kSpecularAmbient = 1u;    // 0: without it; 2: with far_image
 layout(constant_id = 4) const uint kDiffuseLight = 0u;       // 1: with the second target
 
 layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
@@ -24,6 +25,7 @@ layout(set = 0, binding = 5) uniform sampler2D material_image;
 layout(set = 0, binding = 6) uniform sampler2D emissive_image;
 layout(set = 0, binding = 7) uniform sampler2D depth_image;
 layout(set = 0, binding = 8) uniform sampler2D light_texels;
+layout(set = 0, binding = 23) uniform sampler2D far_image;  // SurroundingsOutput
 
 layout(location = 0) out vec4 out_light;
 layout(location = 1) out vec4 out_diffuse_light;  // lux
@@ -79,10 +81,19 @@ vec3 directional_lights(ShadingPoint p, uvec2 pixel) {
 }
 #endif
 
-vec3 ambient_light(ShadingPoint p, float roughness, float occlusion) {
-  if (kDiffuseLight != 0u) diffuse_light += (kPi * occlusion) * hemisphere_radiance(environment, p.normal);
-  if (kSpecularAmbient == 0u) return occlusion * diffuse_ambient(environment, p);
-  return ambient(environment, p, roughness, occlusion);
+// The specular ambient term of surfaces that reflect weakly; that of others is added after the pass.
+vec3 weak_reflection(ShadingPoint p, ivec2 pixel, GBufferTexel g) {
+  vec3 around = mirrored_radiance(environment, p, g.roughness);
+  vec3 far = texelFetch(far_image, pixel * textureSize(far_image, 0) / ivec2(view.size), 0).rgb;
+  vec3 light = specular_share(p, g.roughness) * mix(around, far, g.reflectivity);
+  return reflects_strongly(g.roughness, g.reflectivity) ? vec3(0.0) : light;
+}
+
+vec3 ambient_light(ShadingPoint p, ivec2 pixel, GBufferTexel g) {
+  if (kDiffuseLight != 0u) diffuse_light += (kPi * g.occlusion) * hemisphere_radiance(environment, p.normal);
+  vec3 light = diffuse_ambient(environment, p);
+  if (kSpecularAmbient == 2u) light += weak_reflection(p, pixel, g);
+  return kSpecularAmbient == 1u ? ambient(environment, p, g.roughness, g.occlusion) : g.occlusion * light;
 }
 
 void main() {
@@ -96,7 +107,7 @@ void main() {
   p.normal_spread = g.normal_spread;
   vec4 emissive = texelFetch(emissive_image, pixel, 0);
   if (kTransmission != 0u) extinction_m = decode_extinction(emissive.a);
-  vec3 light = emissive.rgb + ambient_light(p, g.roughness, g.occlusion);
+  vec3 light = emissive.rgb + ambient_light(p, pixel, g);
   set_receiver(position, g.face_normal, g.subsurface);
 #ifdef GLOAM_SHADOWS_BINDING
   receiver = pixel_receiver(position, g.face_normal, g.subsurface, pixel);

@@ -5,6 +5,7 @@
 #include "shaders/common/heat.glsl"
 #include "shaders/reflections/hit_distance_api.glsl"
 #include "shaders/reflections/reflections_shared.h"
+#include "shaders/render/gbuffer_api.glsl"
 #include "shaders/render/view_shared.h"
 
 // Visualizers of reflections: kShown 0 tier, 1 confidence, 2 proxies of each screen tile, 3 layers along the ray,
@@ -26,15 +27,16 @@ layout(set = 0, binding = 9, scalar) readonly buffer ProxyMasks { uint proxy_mas
 layout(set = 0, binding = 10, scalar) readonly buffer ProbeRows { ProbeRow probe_rows[]; };
 layout(set = 0, binding = 11, scalar) uniform Tiles { ProxyTileConstants tiles; };
 layout(set = 0, binding = 12) uniform sampler2DArray probe_images;
+layout(set = 0, binding = 13) uniform usampler2D mirror_image;
 
-layout(push_constant, scalar) uniform Push { uint tiers; };  // bit 0: screen space, bit 1: proxies, bit 2: probes
+layout(push_constant, scalar) uniform Push { uint tiers; };  // bit 0: screen space, bit 1: proxies, bit 2: probes, bit 3: mirrors
 
 layout(location = 0) out vec4 out_picture;
 layout(location = 1) out vec4 out_named;  // values in rgb; a must be 1 with them, because targets are alpha-blended
 
-#include "shaders/reflections/probes/probes_api.glsl"
+#include "shaders/lighting/probes_api.glsl"
+#include "shaders/reflections/mirror_surface_api.glsl"
 #include "shaders/reflections/proxies/proxies_api.glsl"
-#include "shaders/reflections/surfaces_api.glsl"
 
 const float kDarkened = 0.75;  // opacity of black where there is nothing to show
 
@@ -72,7 +74,7 @@ void main() {
   float depth = texelFetch(depth_image, pixel, 0).r, reflectivity = texelFetch(material_image, pixel, 0).w;
   vec3 position = relative_position(view, vec2(pixel), max(depth, 1e-30));
   bool reflects = depth > 0.0 && reflectivity > 0.0, mirrors = reflects && (tiers & 3u) != 0u;
-  MirrorSurface s = mirror_surface(texel);
+  MirrorSurface s = decode_mirror_surface((tiers & 8u) != 0u ? texelFetch(mirror_image, texel, 0).xy : uvec2(0u), texel);
   vec4 color = mirrors ? texelFetch(color_image, texel, 0) : vec4(0.0);
   float screen = mirrors && (tiers & 1u) != 0u ? texelFetch(ssr_color, texel, 0).a * s.share : 0.0;
   vec2 shares = reflects && (tiers & 4u) != 0u ? probe_shares(position) : vec2(0.0);

@@ -3,9 +3,10 @@
 #ifndef GLOAM_SHADERS_REFLECTIONS_SCREEN_SPACE_RAYS_GLSL
 #define GLOAM_SHADERS_REFLECTIONS_SCREEN_SPACE_RAYS_GLSL
 
+#include "shaders/lighting/environment_api.glsl"
+#include "shaders/reflections/hit_distance_api.glsl"
 #include "shaders/reflections/reflections_shared.h"
 #include "shaders/render/view_shared.h"
-#include "shaders/reflections/hit_distance_api.glsl"
 
 // Screen-space reflections (reflections tier 1): colour of the lit picture where the mirrored ray passes behind the
 // depth image, and the confidence that this is what the ray meets. With GLOAM_BLENDED_LAYER the ray is followed a
@@ -22,6 +23,10 @@ layout(set = 0, binding = 3) uniform usampler2D mirror_image;
 layout(set = 0, binding = 4) uniform sampler2D depth_image;
 layout(set = 0, binding = 5) uniform sampler2D depth_bounds;
 layout(set = 0, binding = 6) uniform sampler2D lit_image;
+layout(set = 0, binding = 14) uniform sampler2D base_color_image;
+layout(set = 0, binding = 15) uniform sampler2D material_image;
+layout(set = 0, binding = 16) uniform sampler2D ambient_image;
+layout(set = 0, binding = 17, scalar) uniform Environment { EnvironmentConstants environment; };
 layout(set = 0, binding = 7, rgba16f) uniform writeonly image2D color_image;   // radiance, confidence
 layout(set = 0, binding = 8, rgba8) uniform writeonly image2D distance_image;  // see ScreenSpaceHits
 
@@ -33,18 +38,14 @@ layout(set = 0, binding = 13) uniform sampler2D blended_depth;
 #define GLOAM_MIRROR_TILES 9
 #include "shaders/reflections/mirror_surface_api.glsl"
 #include "shaders/reflections/passes/screen_space_march.glsl"
-#include "shaders/render/gbuffer_api.glsl"
+#define GLOAM_LIT_AT(pixel) texelFetch(lit_image, pixel, 0).rgb
+#define GLOAM_SURROUNDINGS_BINDING 24
+#include "shaders/reflections/passes/hit_light.glsl"
 
 const float kEdgeShare = 0.08;       // width of the fade at the border of the screen, as a share of it
 const float kAwayFromCamera = 0.35;  // cosine between ray and direction to the camera where confidence begins to fall
 const float kTowardCamera = 0.85;    // and where it ends
 const float kHighStart = 0.75;       // share of the reach where confidence begins to fall
-
-// Radiance without NaN, infinity and negative values.
-vec3 clean(vec3 light) {
-  return vec3(light.r > 0.0 ? min(light.r, 65504.0) : 0.0, light.g > 0.0 ? min(light.g, 65504.0) : 0.0,
-              light.b > 0.0 ? min(light.b, 65504.0) : 0.0);
-}
 
 struct Hit {
   vec3 light;
@@ -83,12 +84,14 @@ Hit trace(MirrorSurface s, ScreenRay ray) {
   Hit hit;
   hit.blended = false;
   hit.distance_m = distance_at(ray, place);
-  hit.light = clean(texelFetch(lit_image, pixel, 0).rgb);
+  hit.light = vec3(0.0);
   // The side of the surface that the ray meets must be the one that the camera sees.
   vec3 normal = unpack_normal(texelFetch(normal_image, pixel, 0).y);
   float faces = smoothstep(0.0, 0.1, -dot(normal, s.direction));
   hit.confidence = confidence_at(s, at.xy, max(behind_m(ray, place), 0.0), hit.distance_m) * faces;
   if (!met) hit.confidence = 0.0;
+  // A loop, not a condition: devices that are processors run both sides of a condition.
+  for (bool seen = hit.confidence > 0.0; seen; seen = false) hit.light = light_along(pixel, s.direction);
   return hit;
 }
 

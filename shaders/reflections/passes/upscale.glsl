@@ -4,11 +4,12 @@
 #define GLOAM_SHADERS_REFLECTIONS_COMPOSITE_UPSCALE_GLSL
 
 #include "shaders/reflections/hit_distance_api.glsl"
+#include "shaders/reflections/mirror_surface_api.glsl"
 #include "shaders/reflections/reflections_shared.h"
 #include "shaders/render/view_api.glsl"
 
 // Looks the reflection of a pixel up in the reflection images. Include this after the uniforms `view` and `reflection`
-// and the images color_image and surface_image.
+// and the images color_image, surface_image and mirror_image.
 
 struct Mirrored {
   vec3 light;        // premultiplied by the confidence
@@ -16,10 +17,54 @@ struct Mirrored {
   float distance_m;  // along the mirrored ray; of the nearest texel, or the mean where the texels show one surface
 };
 
-const float kOneSurface = 1.25;  // ratio of distances up to which texels show one surface
+// The surface that a reflection is looked up for, and the depths of its plane: linear over the picture, in steps of the
+// tolerance.
+struct MirrorPixel {
+  vec3 position;  // camera-relative
+  vec2 pixel;
+  float roughness;
+  float per_depth;  // steps for a difference in depth
+  float depth;      // of the pixel, in steps
+  vec2 slope;       // steps for a pixel to the right and down
+};
 
-// Bilinear over the texels that reflect. at: pixels of the view, centres at whole numbers.
-Mirrored fetch_mirrored(vec2 at) {
+const float kOneSurface = 1.25;        // ratio of distances up to which texels show one surface
+const float kPlaneStep = 0.01;         // of the depth, orthographic: units: how far off a plane its texels may lie
+const float kRoughnessStep = 0.03;     // difference of roughness up to which texels are of one material
+const float kLeastTexelWeight = 1e-4;  // of texels of other surfaces: they count only where there is no other texel
+
+MirrorPixel mirror_pixel(ivec2 pixel, float depth, vec3 position, vec3 face_normal, float roughness) {
+  MirrorPixel p;
+  p.position = position;
+  p.pixel = vec2(pixel);
+  p.roughness = roughness;
+  vec2 slope = vec2(dot(face_normal, view.ray_dx.xyz), dot(face_normal, view.ray_dy.xyz));
+  if (view.orthographic != 0u) {
+    float per_step = 1.0 / (kPlaneStep * reflection.unit_m), along = dot(face_normal, view.ray_forward.xyz);
+    p.per_depth = view.ray_dy.w * per_step;
+    p.slope = slope * (-per_step / (abs(along) < 1e-3 ? 1e-3 : along));
+  } else {
+    // 1 / depth is linear in the picture, and so is reversed depth.
+    vec3 ray = view.ray_base.xyz + p.pixel.x * view.ray_dx.xyz + p.pixel.y * view.ray_dy.xyz;
+    float along = dot(face_normal, ray);
+    p.per_depth = 1.0 / (kPlaneStep * max(depth, 1e-30));
+    p.slope = slope / (kPlaneStep * (abs(along) < 1e-5 ? 1e-5 : along));
+  }
+  p.depth = depth * p.per_depth;
+  return p;
+}
+
+// How far a texel belongs to the pixel's surface, 0…1: it lies in its plane, and is as rough.
+float same_surface(MirrorPixel p, ivec2 texel, float roughness) {
+  uvec2 stored = texelFetch(mirror_image, texel, 0).xy;
+  vec2 offset = vec2(mirror_pixel_of(stored, texel)) - p.pixel;
+  float apart = uintBitsToFloat(stored.x) * p.per_depth - p.depth - dot(p.slope, offset);
+  float rougher = (roughness - p.roughness) / kRoughnessStep;
+  return 1.0 / (1.0 + apart * apart + rougher * rougher);
+}
+
+// Between the four nearest texels that reflect. at: pixels of the view, centres at whole numbers.
+Mirrored fetch_mirrored(MirrorPixel p, vec2 at) {
   vec2 candidate = vec2(reflection.first_candidate & 1u, reflection.first_candidate >> 1);
   vec2 shown = reflection.scale == 1u ? vec2(0.0) : reflection.centered != 0u ? vec2(0.5) : candidate;
   vec2 texel = clamp((at - shown) / float(reflection.scale), vec2(0.0), vec2(reflection.size - 1u));
@@ -32,7 +77,8 @@ Mirrored fetch_mirrored(vec2 at) {
     ivec2 place = min(base + offset, last);
     vec4 surface = texelFetch(surface_image, place, 0);
     vec2 weights = mix(1.0 - part, part, vec2(offset));
-    float weight = surface.y > 0.0 ? weights.x * weights.y + 1e-4 : 0.0;
+    float weight = (weights.x * weights.y + kLeastTexelWeight) * (same_surface(p, place, surface.y) + kLeastTexelWeight);
+    weight = surface.y > 0.0 ? weight : 0.0;
     vec4 color = texelFetch(color_image, place, 0);
     sum += weight > 0.0 ? weight * color : vec4(0.0);  // texels of other tiles hold no values
     total += weight;
@@ -61,13 +107,16 @@ vec2 bent_pixel(vec2 pixel, vec3 position, vec3 normal, float distance_m) {
 const float kMuchCloser = 0.5;  // share of the old fetch's distance below which the bent one has met something else
 const float kMostBend = 0.25;   // of the picture's height
 
-Mirrored mirrored_at(ivec2 pixel, vec3 position, vec3 normal) {
-  Mirrored straight = fetch_mirrored(vec2(pixel));
-  if (straight.confidence <= 0.0 || normal.y > 0.99999) return straight;
-  vec2 bend = bent_pixel(vec2(pixel), position, normal, straight.distance_m) - vec2(pixel);
+Mirrored mirrored_at(ivec2 pixel, MirrorPixel p, vec3 normal) {
+  Mirrored straight = fetch_mirrored(p, vec2(pixel));
+#ifdef GLOAM_BENDS
+  if (kBumpy == 0u) return straight;
+#endif
+  if (straight.confidence <= 0.0 || normal.y >= GLOAM_FLAT_MIRROR) return straight;
+  vec2 bend = bent_pixel(vec2(pixel), p.position, normal, straight.distance_m) - vec2(pixel);
   float most = kMostBend * float(view.size.y), length_px = length(bend);
   if (length_px > most) bend *= most / length_px;
-  Mirrored bent = fetch_mirrored(vec2(pixel) + bend);
+  Mirrored bent = fetch_mirrored(p, vec2(pixel) + bend);
   bool other = bent.confidence <= 0.0 || bent.distance_m < kMuchCloser * straight.distance_m;
   if (other) return straight;
   return bent;

@@ -19,7 +19,7 @@ layout(set = 0, binding = 3, scalar) writeonly buffer Lights { vec4 lights[]; };
 
 layout(push_constant, scalar) uniform Push { uint probes; };
 
-#include "shaders/reflections/probes/probes_api.glsl"
+#include "shaders/lighting/probes_api.glsl"
 
 void main() {
   TestRay ray = rays[gl_GlobalInvocationID.x];

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#ifndef GLOAM_SHADERS_LIGHTING_PROBES_API_GLSL
+#define GLOAM_SHADERS_LIGHTING_PROBES_API_GLSL
+
+#include "shaders/common/math.glsl"
+#include "shaders/lighting/probes_shared.h"
+
+// Cube probes: captured surroundings, as octahedral maps in the layers of `probe_images`, prefiltered by roughness in
+// their mips. Include this after the image `probe_images` and the buffer `probe_rows`; rows are ordered: probes with a
+// box from the smallest to the largest, then the global one.
+
+// Radiance that the probe's layer shows in a direction, for a roughness.
+vec3 probe_radiance(float layer, vec3 direction, float roughness) {
+  float lod = roughness * float(textureQueryLevels(probe_images) - 1);
+  vec2 uv = octahedral_encode(direction.xzy) * 0.5 + 0.5;
+  // The border of the image is the fold of the lower half: no texel beyond it may be filtered in.
+  float half_texel = 0.5 * exp2(ceil(lod)) / float(textureSize(probe_images, 0).x);
+  return textureLod(probe_images, vec3(clamp(uv, half_texel, 1.0 - half_texel), layer), lod).rgb;
+}
+
+// Share of the probe at a point: 1 inside, falling to 0 toward the faces of its box.
+float probe_share(ProbeRow probe, vec3 at) {
+  if (probe.global > 0.5) return 1.0;
+  vec3 inside = (1.0 - abs(at)) / probe.fade;
+  return clamp(min(inside.x, min(inside.y, inside.z)), 0.0, 1.0);
+}
+
+// Where a point lies in the probe's box, −1…1 inside.
+vec3 place_in_probe(ProbeRow probe, vec3 position) {
+  vec3 offset = position - probe.center;
+  return vec3(dot(probe.to_x, offset), dot(probe.to_y, offset), dot(probe.to_z, offset));
+}
+
+// The direction from the probe's centre to the point of its box that a ray from inside meets.
+vec3 parallax_direction(ProbeRow probe, vec3 at, vec3 position, vec3 direction) {
+  vec3 along = vec3(dot(probe.to_x, direction), dot(probe.to_y, direction), dot(probe.to_z, direction));
+  along = mix(along, vec3(1e-9), lessThan(abs(along), vec3(1e-9)));
+  vec3 distances = (sign(along) - at) / along;
+  float distance_m = min(distances.x, min(distances.y, distances.z));
+  return position + direction * max(distance_m, 0.0) - probe.center;
+}
+
+// The first two probes that have a share at a point. Others are left out: their share goes to these.
+struct ChosenProbes {
+  uvec2 rows;
+  vec2 shares;
+  float covered;  // share of all probes, 0…1; the rest is the sky's
+};
+
+void consider_probe(inout ChosenProbes chosen, ProbeRow probe, uint row, vec3 position) {
+  float share = probe_share(probe, place_in_probe(probe, position)) * (1.0 - chosen.covered);
+  chosen.covered += share;
+  bool is_first = share > 0.0 && chosen.shares.x == 0.0;
+  bool is_second = share > 0.0 && !is_first && chosen.shares.y == 0.0;
+  chosen.rows.x = is_first ? row : chosen.rows.x;
+  chosen.rows.y = is_second ? row : chosen.rows.y;
+  chosen.shares.x = is_first ? share : chosen.shares.x;
+  chosen.shares.y = is_second ? share : chosen.shares.y;
+}
+
+#ifndef GLOAM_CHOOSE_PROBES
+ChosenProbes choose_probes(uint count, vec3 position) {
+  ChosenProbes chosen = ChosenProbes(uvec2(0u), vec2(0.0), 0.0);
+  for (uint i = 0u; i < count; ++i) consider_probe(chosen, probe_rows[i], i, position);
+  return chosen;
+}
+#else
+GLOAM_CHOOSE_PROBES
+#endif
+
+vec3 seen_in_probe(uint row, vec3 position, vec3 direction, float roughness) {
+  ProbeRow probe = probe_rows[row];
+  vec3 toward = parallax_direction(probe, place_in_probe(probe, position), position, direction);
+  return probe_radiance(probe.layer, probe.global > 0.5 ? direction : toward, roughness);
+}
+
+// Radiance of all probes for a reflected ray. covered: how much of it the probes give, 0…1; the rest is the sky's.
+vec3 probes_radiance(uint count, vec3 position, vec3 direction, float roughness, out float covered) {
+  ChosenProbes chosen = choose_probes(count, position);
+  covered = chosen.covered;
+  vec3 light = vec3(0.0);
+  // Loops, not conditions: devices that are processors run both sides of a condition.
+  for (bool one = chosen.shares.x > 0.0; one; one = false)
+    light = chosen.shares.x * seen_in_probe(chosen.rows.x, position, direction, roughness);
+  for (bool two = chosen.shares.y > 0.0; two; two = false)
+    light += chosen.shares.y * seen_in_probe(chosen.rows.y, position, direction, roughness);
+  return light * (covered / max(chosen.shares.x + chosen.shares.y, 1e-6));
+}
+
+#endif
