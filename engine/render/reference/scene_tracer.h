@@ -40,6 +40,7 @@ struct TracedSurface {
   float metallic = 0.0f;
   float roughness = 1.0f;
   float occlusion = 1.0f;
+  float reflectivity = 0.0f;
 };
 
 /// A rigid mesh whose material gives light of its own.

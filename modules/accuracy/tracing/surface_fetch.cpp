@@ -81,6 +81,8 @@ void fetch_surface(const SceneAssets& assets, const SurfaceSource& source, const
   surface.occlusion = 1.0f + material.occlusion_strength * (sampled(material.occlusion_texture).r - 1.0f);
   surface.emissive = material.emissive * vec3(sampled(material.emissive_texture));
   surface.subsurface = material.subsurface;
+  const float derived = (1.0f - surface.roughness) * std::lerp(0.5f, 1.0f, surface.metallic);
+  surface.reflectivity = material.reflectivity >= 0.0f ? material.reflectivity : derived;
 }
 
 }  // namespace gloam

@@ -3,6 +3,7 @@
 #include "modules/reflections/reference/lobe.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine/math/low_discrepancy.h"
@@ -57,10 +58,31 @@ LobeDirection ReflectionLobe::sample(double u1, double u2) const {
   return found;
 }
 
-PixelSequence::PixelSequence(std::uint32_t pixel)
-    : scramble_x_(permuted(pixel * 5u + 1u)), scramble_y_(permuted(pixel * 5u + 2u)) {
+LobeDirection ReflectionLobe::one(const PixelSequence& sequence, std::uint32_t index, double choice) const {
+  std::array<LobeDirection, kLobeCandidates> candidates;
+  double total = 0.0;
+  for (std::uint32_t i = 0; i < kLobeCandidates; ++i) {
+    const PixelSequence::Pair at = sequence.direction(index * kLobeCandidates + i);
+    candidates[i] = sample(at.x, at.y);
+    total += candidates[i].weight;
+  }
+  double left = choice * total;
+  const LobeDirection* chosen = nullptr;
+  for (const LobeDirection& candidate : candidates) {
+    if (!(candidate.weight > 0.0)) continue;
+    chosen = &candidate;
+    left -= candidate.weight;
+    if (left < 0.0) break;
+  }
+  return chosen != nullptr ? LobeDirection{chosen->direction, total / kLobeCandidates} : LobeDirection{};
+}
+
+PixelSequence::PixelSequence(std::uint32_t pixel, std::uint32_t stream) {
+  const std::uint32_t seed = stream == 0 ? pixel * 5u : permuted(pixel * 5u + 4u) ^ permuted(stream);
+  scramble_x_ = permuted(seed + 1u);
+  scramble_y_ = permuted(seed + 2u);
   for (int axis = 0; axis < 3; ++axis)
-    shift_[axis] = unit_fraction(permuted(permuted(pixel * 5u + 3u) + static_cast<std::uint32_t>(axis)));
+    shift_[axis] = unit_fraction(permuted(permuted(seed + 3u) + static_cast<std::uint32_t>(axis)));
 }
 
 PixelSequence::Pair PixelSequence::direction(std::uint32_t index) const {

@@ -27,7 +27,8 @@ void add_assets(Hasher& hasher, const SceneAssets& assets) {
     }
   for (const Material& m : assets.materials) {
     hasher.bytes_of(m.base_color).bytes_of(m.emissive);
-    for (const float number : {m.metallic, m.roughness, m.occlusion_strength, m.alpha_cutoff}) hasher.bytes_of(number);
+    for (const float number : {m.metallic, m.roughness, m.occlusion_strength, m.alpha_cutoff, m.reflectivity})
+      hasher.bytes_of(number);
     hasher.value(m.alpha_mode).value(m.double_sided).value(m.subsurface);
     for (const TextureSlot& slot :
          {m.base_color_texture, m.metallic_roughness_texture, m.occlusion_texture, m.emissive_texture})
@@ -88,11 +89,11 @@ std::string radiance_identity(const RadianceInput& input) {
   const auto& sky = input.world.resource<SceneEnvironment>();
   hasher.bytes_of(sky.sky_zenith).bytes_of(sky.sky_horizon).bytes_of(sky.sky_ground);
   add_settings(hasher, input.settings);
-  constexpr int kMethod = 1;  // increase when the same input gives other radiances
+  constexpr int kMethod = 2;  // increase when the same input gives other radiances
   return "reflections " + std::to_string(kMethod) + " of triangles " + std::to_string(input.tracer.all_version()) +
          " frame and scene " + std::to_string(hasher.digest()) + " size " + std::to_string(geometry.view.width) + "x" +
          std::to_string(geometry.view.height) + " rays " + std::to_string(input.settings.rays) + " light samples " +
-         std::to_string(input.settings.light_samples);
+         std::to_string(input.settings.light_samples) + " bounces " + std::to_string(input.settings.bounces);
 }
 
 }  // namespace gloam

@@ -20,13 +20,19 @@
 // - Rays begin at the surface under a pixel's centre and follow the GGX lobe of the pixel's shading normal and
 //   roughness (ReflectionLobe); a mirror has one ray. Rays below the plane of the drawn triangle are left out. If no
 //   ray is left, one follows the mirror direction, moved onto that plane.
-// - A surface that a ray meets has its emission, the reflected light of all lights, seen from the ray's origin, and
-//   diffuse ambient light. It has no specular ambient light, as the lit picture that tiers look up has none, and so
-//   there is one bounce. Attributes: see TracedSurface.
+// - A surface that a ray meets looks as in a frame, seen from the ray's origin: it has its emission, the reflected
+//   light of all lights, diffuse ambient light, and specular surroundings
+//   occlusion · specular_share · mix(mirrored_radiance, R, reflectivity), as the composite gives them to pixels. R is
+//   traced by further rays along the surface's own lobe. Attributes: see TracedSurface.
+// - After ReflectionTracing::bounces surfaces, R is the mirrored radiance of the sky's model.
+// - Each ray of a pixel is followed by one ray, chosen in proportion to the lobe's weights (ReflectionLobe::one). If a
+//   pixel, or a mirror that it sees, has a single ray, the next surface has as many rays as a rough pixel.
 // - Lights are shadowed by rays to points of their emitters, as in the reference of shadows: a disc of the light's
 //   width that faces the point, a clearance before a lamp, bulbs that do not block their lamp. Shadow rays are shared
-//   among lights by the light that each would add. Cookies are left out (TwinLight).
-// - A ray that meets nothing sees the sky. Blended surfaces are not in the scene. Casters without a mesh (grass) and
+//   among lights by the light that each would add. A highlight is as wide as its light, as in frames. Cookies are
+//   left out (TwinLight), and so is light that passes through bodies.
+// - A ray that meets nothing sees the sky. Fog and quads lie along all rays. Blended surfaces are not in the scene.
+// Casters without a mesh (grass) and
 //   particles are not traced.
 
 namespace gloam {
@@ -41,6 +47,7 @@ struct ReflectedFog {
 struct ReflectionTracing {
   std::uint32_t rays = 64;          ///< per pixel, ≥ 1; powers of two are spread best
   std::uint32_t light_samples = 1;  ///< shadow rays per ray, ≥ 1; a mirror's one ray gets those of all `rays`
+  std::uint32_t bounces = 2;  ///< surfaces that a ray meets, ≥ 1; 2: what a pixel shows has traced reflections, too
   ReflectedFog fog;
   std::span<const EmissiveQuad> quads;  ///< seen by reflected rays only
 };

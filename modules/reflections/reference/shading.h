@@ -24,7 +24,9 @@ struct TwinPoint {
                                    double roughness);
 
 /// Radiance toward the eye for an illuminance (on a plane that faces the light) from the unit direction to_light.
-[[nodiscard]] dvec3 reflected_light(const TwinPoint& p, const dvec3& to_light, const dvec3& illuminance);
+/// half_angle: apparent radius of the light in radians, as in reflected_disc(); 0: a point.
+[[nodiscard]] dvec3 reflected_light(const TwinPoint& p, const dvec3& to_light, const dvec3& illuminance,
+                                    double half_angle = 0.0);
 
 /// Radiance of the sky, and of the ground below the horizon, in a unit direction.
 [[nodiscard]] dvec3 sky_radiance(const SceneEnvironment& sky, const dvec3& direction);

@@ -109,6 +109,29 @@ TEST_F(NearestSurfaces, a_tilted_ground_of_any_width_is_where_it_is) {
   }
 }
 
+TEST_F(NearestSurfaces, reflectivity_is_that_of_frames) {
+  struct Case {
+    float stated, roughness, metallic, expected;
+  };
+  // Without a stated value: 1 - roughness, of which a surface that is no metal has half.
+  const Case cases[] = {{-1.0f, 0.4f, 0.0f, 0.3f},
+                        {-1.0f, 0.4f, 1.0f, 0.6f},
+                        {-1.0f, 1.0f, 1.0f, 0.0f},
+                        {0.0f, 0.0f, 1.0f, 0.0f},
+                        {0.35f, 1.0f, 0.0f, 0.35f}};
+  double x = 0.0;
+  for (const Case& one : cases) {
+    Material material;
+    material.reflectivity = one.stated;
+    material.roughness = one.roughness;
+    material.metallic = one.metallic;
+    draw(test::quad(0.4f), material, glm::translate(dmat4(1.0), dvec3(x, 0.0, 0.0)));
+    trace();
+    EXPECT_NEAR(front(x, 0.1).reflectivity, one.expected, 1e-6f);
+    x += 1.0;
+  }
+}
+
 TEST_F(NearestSurfaces, rays_meet_the_front_faces_of_boxes) {
   const dvec3 middle(3.0, 1.0, -2.0), half(0.5, 1.0, 2.0);
   draw(test::box(vec3(half)), {}, glm::translate(dmat4(1.0), middle));

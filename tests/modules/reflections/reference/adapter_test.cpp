@@ -140,6 +140,14 @@ TEST(ReflectionReference, results_are_stored_and_found_again) {
   EXPECT_EQ(scene.store.kept.size(), 4u);
   ASSERT_TRUE(find_reflections(scene.reference_input(), {.fog = {.density = 0.1}}).ok());
   EXPECT_EQ(scene.store.kept.size(), 5u);
+  ASSERT_TRUE(find_reflections(scene.reference_input(), {.bounces = 3}).ok());
+  EXPECT_EQ(scene.store.kept.size(), 6u);
+  scene.maker.material(test::painted(vec3(0.5f)));
+  ASSERT_TRUE(find_reflections(scene.reference_input()).ok());
+  EXPECT_EQ(scene.store.kept.size(), 7u);
+  scene.world.resource<SceneAssets>().materials.back().reflectivity = 0.5f;
+  ASSERT_TRUE(find_reflections(scene.reference_input()).ok());
+  EXPECT_EQ(scene.store.kept.size(), 8u);
 }
 
 TEST(ReflectionReference, damaged_bytes_are_not_read) {

@@ -101,21 +101,34 @@ class ReflectionScene {
   std::unique_ptr<SceneTracer> tracer;
 };
 
-/// A material that only shines.
+/// A material that shines, with the surroundings of the sky on it.
 [[nodiscard]] inline Material glowing(const vec3& emissive) {
   Material material;
   material.base_color = vec4(0.0f, 0.0f, 0.0f, 1.0f);
   material.metallic = 0.0f;
   material.emissive = emissive;
+  material.reflectivity = 0.0f;
   return material;
 }
 
-/// A material without emission.
+/// The surface of a material at a point that a ray meets.
+[[nodiscard]] inline OracleSurface surface_of(const Material& material, const dvec3& position, const dvec3& normal,
+                                              const dvec3& ray_direction) {
+  return {.position = position,
+          .normal = normal,
+          .to_eye = -ray_direction,
+          .base_color = dvec3(material.base_color),
+          .metallic = static_cast<double>(material.metallic),
+          .roughness = static_cast<double>(material.roughness)};
+}
+
+/// A material without emission. Its surroundings are those of the sky.
 [[nodiscard]] inline Material painted(const vec3& color, float roughness = 0.6f, float metallic = 0.0f) {
   Material material;
   material.base_color = vec4(color, 1.0f);
   material.roughness = roughness;
   material.metallic = metallic;
+  material.reflectivity = 0.0f;
   return material;
 }
 

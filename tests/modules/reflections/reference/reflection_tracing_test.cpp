@@ -35,7 +35,8 @@ TEST(ReflectionTracing, a_mirror_floor_shows_an_emissive_square_and_the_sky_arou
   ReflectionScene scene;
   scene.sky() = {.sky_zenith = {0.2f, 0.4f, 1.0f}, .sky_horizon = {0.7f, 0.6f, 0.5f}, .sky_ground = vec3(9.0f)};
   const dvec3 center(0.1, 1.2, -0.6), emitted(5.0, 3.0, 1.0);
-  scene.square(0.5, center, kDown, glowing(vec3(emitted)));
+  const Material lamp = glowing(vec3(emitted));
+  scene.square(0.5, center, kDown, lamp);
   const TracedReflections traced = scene.trace();
   int square = 0, sky = 0;
   scene.each_floor_pixel(traced, [&](std::uint32_t x, std::uint32_t y, const dvec3& radiance) {
@@ -43,7 +44,10 @@ TEST(ReflectionTracing, a_mirror_floor_shows_an_emissive_square_and_the_sky_arou
     const std::optional<dvec3> at = ray.at(kDown, -center.y);
     const double margin = at ? inside(*at, center, 0.5) : -1.0;
     if (std::abs(margin) < 2e-3) return;
-    expect_near(radiance, margin > 0.0 ? emitted : test::oracle_sky(scene.sky(), ray.direction), 1e-3, x, y);
+    const dvec3 there =
+        margin > 0.0 ? emitted + test::oracle_ambient(test::surface_of(lamp, *at, kDown, ray.direction), scene.sky())
+                     : test::oracle_sky(scene.sky(), ray.direction);
+    expect_near(radiance, there, 1e-3, x, y);
     ++(margin > 0.0 ? square : sky);
   });
   EXPECT_GT(square, 30);
@@ -88,8 +92,8 @@ TEST(ReflectionTracing, a_constant_surrounding_is_reflected_as_itself_by_any_lob
 /// A wall behind a floor, lit by a point light of which a small plate hides a part of the wall.
 struct LitWall : ReflectionScene {
   static constexpr double kWallZ = -2.0;
-  LitWall() {
-    wall = painted({0.6f, 0.5f, 0.3f}, 0.4f, 0.3f);
+  explicit LitWall(float roughness = 0.4f) {
+    wall = painted({0.6f, 0.5f, 0.3f}, roughness, 0.3f);
     square(6.0, {0.0, 0.0, kWallZ}, {0.0, 0.0, 1.0}, wall);
     lamp.intensity = 30.0f;
     lamp.range_m = 20.0f;
@@ -100,18 +104,10 @@ struct LitWall : ReflectionScene {
     const Mirrored ray = mirrored(x, y);
     const std::optional<dvec3> at = ray.at({0.0, 0.0, 1.0}, kWallZ);
     if (!at || inside(dvec3(at->x, at->y, 0.0), dvec3(0.0), 6.0) < 0.01) return std::nullopt;
-    test::OracleSurface s;
-    s.position = *at;
-    s.to_eye = -ray.direction;
-    s.base_color = dvec3(wall.base_color);
-    s.metallic = static_cast<double>(wall.metallic);
-    s.roughness = static_cast<double>(wall.roughness);
-    return s;
+    return test::surface_of(wall, *at, {0.0, 0.0, 1.0}, ray.direction);
   }
-  /// Light of the surroundings that a reflected surface has: the diffuse term only.
-  [[nodiscard]] dvec3 ambient(const test::OracleSurface& s) {
-    return (1.0 - s.metallic) * s.base_color * test::oracle_hemisphere(sky(), s.normal);
-  }
+  /// Light of the surroundings that a reflected surface has if its reflectivity is 0.
+  [[nodiscard]] dvec3 ambient(const test::OracleSurface& s) { return test::oracle_ambient(s, sky()); }
   Material wall;
   Light lamp;
 };
@@ -191,7 +187,7 @@ TEST(ReflectionTracing, lights_share_shadow_rays_without_bias) {
 }
 
 TEST(ReflectionTracing, an_emitter_with_width_has_a_penumbra_in_reflections) {
-  LitWall scene;
+  LitWall scene(1.0f);  // no highlight, which has the lamp's width, too
   scene.lamp.width_m = 1.0f;
   const dvec3 lamp(1.5, 0.7, 0.5);
   scene.light(scene.lamp, lamp);
@@ -246,7 +242,7 @@ TEST(ReflectionTracing, meshes_that_cast_no_shadows_are_reflected_but_hide_no_li
 }
 
 TEST(ReflectionTracing, a_bulb_does_not_hide_its_lamp) {
-  LitWall scene;
+  LitWall scene(1.0f);
   scene.lamp.width_m = 0.1f;
   const dvec3 lamp(0.0, 0.8, 1.0);
   scene.light(scene.lamp, lamp);
@@ -264,7 +260,8 @@ TEST(ReflectionTracing, fog_lies_along_reflected_rays) {
   ReflectionScene scene;
   scene.sky() = {.sky_zenith = vec3(2.0f), .sky_horizon = vec3(2.0f), .sky_ground = vec3(2.0f)};
   const dvec3 center(0.0, 1.2, -0.6);
-  scene.square(0.5, center, kDown, glowing(vec3(5.0f)));
+  const Material lamp = glowing(vec3(5.0f));
+  scene.square(0.5, center, kDown, lamp);
   const TracedReflections traced =
       scene.trace({.fog = {.density = 0.3, .color = dvec3(0.1, 0.2, 0.3), .sky_distance_m = 6.0}});
   scene.each_floor_pixel(traced, [&](std::uint32_t x, std::uint32_t y, const dvec3& radiance) {
@@ -273,8 +270,10 @@ TEST(ReflectionTracing, fog_lies_along_reflected_rays) {
     const double margin = at ? inside(*at, center, 0.5) : -1.0;
     if (std::abs(margin) < 2e-3) return;
     const double transmitted = std::exp(-0.3 * (margin > 0.0 ? glm::length(*at - ray.origin) : 6.0));
-    expect_near(radiance, transmitted * dvec3(margin > 0.0 ? 5.0 : 2.0) + (1.0 - transmitted) * dvec3(0.1, 0.2, 0.3),
-                1e-3, x, y);
+    const dvec3 there = margin > 0.0
+                            ? 5.0 + test::oracle_ambient(test::surface_of(lamp, *at, kDown, ray.direction), scene.sky())
+                            : dvec3(2.0);
+    expect_near(radiance, transmitted * there + (1.0 - transmitted) * dvec3(0.1, 0.2, 0.3), 1e-3, x, y);
   });
 }
 
