@@ -62,6 +62,10 @@ struct SurroundingsOutput {
   ImageRef light;
 };
 
+/// The view's visualizer shows the picture itself, with other light in it: it is antialiased as the picture is. The
+/// visualizer's module puts this on the board in PassPhase::announce.
+struct VisualizerIsPicture {};
+
 /// Another module needs DiffuseLightOutput. It puts this on the board in PassPhase::announce.
 struct DiffuseLightWanted {};
 

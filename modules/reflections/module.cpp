@@ -154,7 +154,10 @@ class ReflectionsModule final : public Module {
     list_reflection_pipelines(reflection_knobs(knobs), device.threads_in_turn, last_blended_, last_probes_, list);
   }
   void add_passes(FrameBuilder& frame, PassPhase phase) override {
-    if (phase == PassPhase::announce) announce_reflections(frame, staging_);
+    if (phase == PassPhase::announce) {
+      announce_reflections(frame, staging_);
+      announce_reflection_view(frame);
+    }
     if (phase == PassPhase::lists) add_reflection_list_passes(frame);
     if (phase == PassPhase::shading) add_reflection_passes(frame, staging_);
     if (const auto* probes = frame.find<SurroundingProbes>()) last_probes_ = probes->rows.size();

@@ -41,7 +41,8 @@ ComputeProgram edges_program(bool rows) { return {shaders::lighting::edges_comp,
 }  // namespace
 
 bool antialiases(const FrameBuilder& frame) {
-  return frame.knobs().value(kAntialiasing) != Antialiasing::off && frame.visualizer() == "none" &&
+  const bool picture = frame.visualizer() == "none" || frame.find<VisualizerIsPicture>() != nullptr;
+  return frame.knobs().value(kAntialiasing) != Antialiasing::off && picture &&
          sees_surfaces(frame.world(), frame.view()) && frame.view().purpose != ViewPurpose::reference;
 }
 

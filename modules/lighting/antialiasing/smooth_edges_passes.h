@@ -9,8 +9,8 @@ namespace gloam {
 /// Format of the displayed linear light that antialiasing reads; alpha is the brightness to the eye, 0…1.
 inline constexpr gpu::Format kShownFormat = gpu::Format::rgba16_float;
 
-/// Whether the picture of this view is antialiased: lighting.antialiasing is on, and neither a visualizer nor a
-/// reference is drawn.
+/// Whether the picture of this view is antialiased: lighting.antialiasing is on, and neither a reference is drawn nor a
+/// visualizer, except those with VisualizerIsPicture.
 [[nodiscard]] bool antialiases(const FrameBuilder& frame);
 
 struct AntialiasingWeights {

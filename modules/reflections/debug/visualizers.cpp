@@ -8,6 +8,7 @@
 #include <string>
 
 #include "engine/render/passes/visualizer_pass.h"
+#include "modules/lighting/outputs.h"
 #include "modules/reflections/bindings.h"
 #include "modules/reflections/culling/tiles.h"
 #include "modules/reflections/knobs.h"
@@ -18,6 +19,7 @@ namespace {
 
 constexpr const char* kReflectionViews[] = {"reflection_tier", "reflection_confidence", "ibr_tiles", "ibr_layers",
                                             "probes"};
+constexpr const char* kTracedView = "reflection_reference";
 
 }  // namespace
 
@@ -32,7 +34,7 @@ std::vector<VisualizerInfo> reflection_visualizers(const ExtrasOf& extras) {
       {"ibr_tiles", "reflections", "", "number of proxies in the list of each vertical screen tile"},
       {"ibr_layers", "reflections", "", "layers along each mirrored ray, proxies and the hit of screen space"},
       {"probes", "reflections", "", "radiance of the probes in the mirror direction of each pixel, as x / (1 + x)"},
-      {"reflection_reference", "reflections", "", "the picture with traced reflections in place of all tiers"}};
+      {kTracedView, "reflections", "", "the picture with traced reflections in place of all tiers"}};
   for (VisualizerInfo& view : views) {
     if (view.name == "reflection_confidence") view.heat = {1.0};
     if (view.name == "ibr_tiles") view.heat = {31.0};
@@ -42,6 +44,10 @@ std::vector<VisualizerInfo> reflection_visualizers(const ExtrasOf& extras) {
     return put_traced_reflections(world, input, extras);
   };
   return views;
+}
+
+void announce_reflection_view(FrameBuilder& frame) {
+  if (frame.visualizer() == kTracedView) frame.put(VisualizerIsPicture{});
 }
 
 void add_reflection_view_pass(FrameBuilder& frame) {

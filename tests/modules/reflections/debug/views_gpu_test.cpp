@@ -145,5 +145,23 @@ TEST_F(ReflectionViews, a_picked_distance_is_that_of_the_traced_ray) {
   EXPECT_GT(compared, 0u);
 }
 
+TEST_F(ReflectionViews, the_picture_with_traced_reflections_is_antialiased_as_the_picture_is) {
+  draw();
+  const GeometryPicture seen = geometry();
+  const auto tracer = value_of(make_scene_tracer(world, *executor, seen.view.position));
+  world.set_resource(trace_radiance(
+      {.world = world, .geometry = seen, .tracer = *tracer, .executor = *executor, .settings = {.rays = 1}}));
+  const auto shown_as = [&](const char* visualizer, const char* antialiasing) {
+    set("lighting.antialiasing", antialiasing);
+    settings.visualizer = visualizer;
+    draw();
+    return picture().rgba;
+  };
+  const auto smooth = shown_as("none", "smaa");
+  EXPECT_EQ(shown_as("reflection_reference", "smaa"), smooth);
+  EXPECT_GT(differences(shown_as("reflection_reference", "off"), smooth), 50u) << "edges are smoothed";
+  world.remove_resource<TracedReflections>();
+}
+
 }  // namespace
 }  // namespace gloam::test

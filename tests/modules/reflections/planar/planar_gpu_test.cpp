@@ -14,7 +14,6 @@
 
 #include "engine/ecs/view.h"
 #include "modules/accuracy/module.h"
-#include "modules/lighting/outputs.h"
 #include "modules/reflections/reference/reflection_tracing.h"
 #include "modules/shadows/components.h"
 #include "tests/modules/lighting/guest_module.h"
@@ -45,11 +44,8 @@ struct PlanarReflections : test::GuestSceneTest {
     world.add(light(lamp, {2.0, 2.5, 2.0}), ShadowCaster{.enabled = with_shadows()});
     set("reflections.mode", "planar");
     set("reflections.blur", "off");
-    // Traced surfaces have no specular ambient light.
-    guest = [](FrameBuilder& frame, PassPhase phase) {
-      if (phase == PassPhase::announce && frame.view().is_companion()) frame.put(SpecularAmbientTaken{});
-    };
   }
+  /// Its surroundings are those of the sky, in the mirrored view and where traced rays meet it.
   [[nodiscard]] static Material dull(Material material) {
     material.reflectivity = 0.0f;
     return material;

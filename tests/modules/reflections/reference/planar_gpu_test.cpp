@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "engine/ecs/view.h"
 #include "modules/accuracy/module.h"
 #include "modules/lighting/outputs.h"
 #include "modules/reflections/reference/reflection_tracing.h"
@@ -59,38 +60,77 @@ struct DrawnReflections : test::GuestSceneTest {
       if (phase == PassPhase::announce) frame.put(SpecularAmbientTaken{});
     };
   }
-  [[nodiscard]] TracedReflections trace(const GeometryPicture& geometry) {
+  [[nodiscard]] TracedReflections trace(const GeometryPicture& geometry, const ReflectionTracing& tracing) {
     const auto tracer = value_of(make_scene_tracer(world, *executor, geometry.view.position));
     return trace_radiance(
-        {.world = world, .geometry = geometry, .tracer = *tracer, .executor = *executor, .settings = {.rays = 4}});
+        {.world = world, .geometry = geometry, .tracer = *tracer, .executor = *executor, .settings = tracing});
+  }
+  /// Compares reflections of the floor with the picture of a mirrored camera.
+  struct FloorError {
+    std::size_t floor = 0;    ///< pixels
+    std::size_t objects = 0;  ///< that show no sky
+    std::size_t different = 0;
+    dvec3 traced = dvec3(0.0), drawn = dvec3(0.0);  ///< sums over objects
+  };
+  [[nodiscard]] FloorError compare(const GeometryPicture& geometry, const TracedReflections& traced,
+                                   const LinearPicture& planar, double most) {
+    FloorError error;
+    for (std::uint32_t y = 0; y < settings.height; ++y)
+      for (std::uint32_t x = 0; x < settings.width; ++x) {
+        const std::size_t index = std::size_t{y} * settings.width + x;
+        if (geometry.is_sky(index) || geometry.texel(index).normal.y < 0.9999f) continue;
+        if (std::abs(geometry.position(x, y).y + geometry.view.position.y) > 1e-3) continue;
+        const dvec3 seen(traced.radiance[4 * index], traced.radiance[4 * index + 1], traced.radiance[4 * index + 2]);
+        const dvec3 direction = glm::normalize(geometry.position(x, y) * dvec3(1.0, -1.0, 1.0));
+        ++error.floor;
+        error.different += relative_error(seen, pixel(planar, x, y), 1.0) <= most ? 0 : 1;
+        if (relative_error(seen, test::oracle_sky(environment(), direction), 1.0) <= 0.02) continue;
+        ++error.objects;
+        error.traced += seen;
+        error.drawn += pixel(planar, x, y);
+      }
+    return error;
   }
 };
 
 TEST_F(DrawnReflections, a_mirror_shows_what_a_mirrored_camera_sees) {
-  leave_out_specular_ambient();
   ASSERT_NO_FATAL_FAILURE(draw());
   const GeometryPicture geometry = value_of(renderer->read_geometry(world, settings.id));
-  const TracedReflections traced = trace(geometry);
+  // The picture without reflections has surroundings of the sky, as the last surface of a traced ray.
+  const TracedReflections traced = trace(geometry, {.rays = 4, .bounces = 1});
   ViewSettings mirrored = settings;
   mirrored.mirror = MirrorPlane{};
   ASSERT_NO_FATAL_FAILURE(draw(world, mirrored));
-  const LinearPicture planar = linear();
-  std::size_t floor = 0, objects = 0, different = 0;
-  for (std::uint32_t y = 0; y < settings.height; ++y)
-    for (std::uint32_t x = 0; x < settings.width; ++x) {
-      const std::size_t index = std::size_t{y} * settings.width + x;
-      if (geometry.is_sky(index) || geometry.texel(index).normal.y < 0.9999f) continue;
-      if (std::abs(geometry.position(x, y).y + geometry.view.position.y) > 1e-3) continue;
-      const dvec3 seen(traced.radiance[4 * index], traced.radiance[4 * index + 1], traced.radiance[4 * index + 2]);
-      const dvec3 direction = glm::normalize(geometry.position(x, y) * dvec3(1.0, -1.0, 1.0));
-      ++floor;
-      objects += relative_error(seen, test::oracle_sky(environment(), direction), 1.0) > 0.02 ? 1 : 0;
-      // The geometry buffer's colours and normals are rounded, and edges fall into one pixel or its neighbour.
-      different += relative_error(seen, pixel(planar, x, y), 1.0) <= 0.03 ? 0 : 1;
-    }
-  EXPECT_GT(floor, 2000u);
-  EXPECT_GT(objects, 300u);
-  EXPECT_LT(different, floor / 100);
+  const FloorError error = compare(geometry, traced, linear(), 0.03);
+  EXPECT_GT(error.floor, 2000u);
+  EXPECT_GT(error.objects, 300u);
+  // The geometry buffer's colours and normals are rounded, and edges fall into one pixel or its neighbour.
+  EXPECT_LT(error.different, error.floor / 100);
+}
+
+TEST_F(DrawnReflections, a_mirror_shows_the_traced_reflections_of_a_mirrored_camera) {
+  for (Material& material : scene.assets().materials) {
+    if (material.reflectivity >= 0.0f) continue;  // the floor
+    material.metallic = 1.0f;
+    material.base_color = {1.0f, 0.8f, 0.4f, 1.0f};
+  }
+  ++scene.assets().version;
+  world.view<Light>().each([](Light& light) { light.intensity = 0.0f; });  // pixels widen highlights of curved surfaces
+  ASSERT_NO_FATAL_FAILURE(draw());
+  const GeometryPicture geometry = value_of(renderer->read_geometry(world, settings.id));
+  const TracedReflections one = trace(geometry, {.rays = 256, .bounces = 1});
+  const TracedReflections two = trace(geometry, {.rays = 256, .bounces = 2});
+  leave_out_specular_ambient();
+  ViewSettings mirrored = settings;
+  mirrored.mirror = MirrorPlane{};
+  ASSERT_NO_FATAL_FAILURE(draw(world, mirrored));
+  const GeometryPicture below = value_of(renderer->read_geometry(world, settings.id));
+  const LinearPicture planar = compose_reflections(linear(), below, world, trace(below, {.rays = 256, .bounces = 1}));
+  const FloorError error = compare(geometry, two, planar, 0.06), before = compare(geometry, one, planar, 0.06);
+  EXPECT_GT(error.objects, 300u);
+  EXPECT_LT(error.different, error.floor / 50);
+  EXPECT_GT(before.different, error.floor / 20) << "a further bounce is seen";
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(error.traced[c] / error.drawn[c], 1.0, 0.01);
 }
 
 TEST_F(DrawnReflections, without_reflectivity_the_composite_is_the_usual_picture) {
@@ -102,7 +142,7 @@ TEST_F(DrawnReflections, without_reflectivity_the_composite_is_the_usual_picture
   ASSERT_NO_FATAL_FAILURE(draw());
   const GeometryPicture geometry = value_of(renderer->read_geometry(world, settings.id));
   const LinearPicture drawn_base = linear();
-  const LinearPicture composed = compose_reflections(drawn_base, geometry, world, trace(geometry));
+  const LinearPicture composed = compose_reflections(drawn_base, geometry, world, trace(geometry, {.rays = 4}));
   const LinearPicture base = without_specular_ambient(usual, geometry, world);
   std::size_t darker = 0;
   for (std::uint32_t y = 0; y < settings.height; ++y)
