@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "modules/reflections/reference/reflection_tracing.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <mutex>
@@ -22,11 +23,17 @@
 namespace gloam {
 namespace {
 
+/// Share of its surroundings that a surface shows, from which on each ray to it is followed by one.
+constexpr double kFullShare = 0.05;
+
+double greatest_of(const dvec3& color) { return std::max({color.r, color.g, color.b}); }
+
 /// All rays of a pixel that left as many surfaces behind, with what they met.
 struct Bounce {
   std::vector<SurfaceRay> rays;
   std::vector<double> weights;      ///< in the mean of their surface's lobe
   std::vector<std::uint32_t> from;  ///< index of the surface that a ray leaves, in the bounce before; ascending
+  std::vector<double> scales;       ///< by which the mean of their surface's rays counts
   std::vector<TracedSurface> surfaces;
   std::vector<TwinPoint> points;  ///< of surfaces
   std::vector<dvec3> radiance;    ///< of surfaces, toward the rays' origins
@@ -35,6 +42,7 @@ struct Bounce {
     rays.clear();
     weights.clear();
     from.clear();
+    scales.clear();
   }
 };
 
@@ -67,6 +75,7 @@ class PixelTracer {
     std::uint32_t bounce = 0;  ///< that the rays are added to
     std::uint32_t from = 0;    ///< Bounce::from
     std::uint32_t rays = 0;    ///< for a surface that is no mirror
+    double scale = 1.0;        ///< Bounce::scales
   };
 
   /// Adds the rays of a surface: at least one.
@@ -77,6 +86,7 @@ class PixelTracer {
       bounce.rays.push_back({.origin = vec3(origin), .direction = vec3(direction)});
       bounce.weights.push_back(weight);
       bounce.from.push_back(what.from);
+      bounce.scales.push_back(what.scale);
     };
     const bool mirror = roughness < kMirrorRoughness;
     if (!mirror && what.rays == 1) {
@@ -131,20 +141,36 @@ class PixelTracer {
   }
 
   /// Sends rays from the surfaces of a bounce that reflect. A pixel's only ray is followed by as many as a rough pixel
-  /// has: a rough surface in a mirror is as free of noise as the same surface seen directly.
+  /// has: a rough surface in a mirror is as free of noise as the same surface seen directly. Surfaces that reflect
+  /// little have fewer rays: less than one in the mean, which then counts for more.
   void send_further(std::uint32_t pixel, std::uint32_t index) {
     const Bounce& bounce = bounces_[index];
     bounces_[index + 1].clear();
-    const std::uint32_t rays = bounce.rays.size() == 1 ? settings_.rays : 1;
+    const PixelSequence sequence(pixel, 2 * index + 3);
     for (std::uint32_t i = 0; i < bounce.rays.size(); ++i) {
       const TracedSurface& s = bounce.surfaces[i];
       if (!s.hit || !(s.reflectivity > 0.0f)) continue;
+      const double sent = std::min(greatest_of(reflected_share(bounce, i)) / kFullShare, 1.0);
+      std::uint32_t rays = 1;
+      double scale = 1.0;
+      if (bounce.rays.size() == 1) {
+        rays = std::max(static_cast<std::uint32_t>(std::ceil(sent * settings_.rays)), 1u);
+      } else {
+        if (!(sequence.emitter(i).x < sent)) continue;
+        scale = 1.0 / sent;
+      }
       const dvec3 face_normal = glm::normalize(dvec3(s.face_normal));
       const dvec3 start = ray_start(dvec3(s.position), face_normal, tracer_from_camera_);
       const TwinPoint& p = bounce.points[i];
       aim(ReflectionLobe(p.normal, face_normal, p.to_eye, p.roughness), p.roughness, start,
-          {.pixel = pixel, .bounce = index + 1, .from = i, .rays = rays});
+          {.pixel = pixel, .bounce = index + 1, .from = i, .rays = rays, .scale = scale});
     }
+  }
+
+  /// Share of a traced reflection that a surface shows.
+  [[nodiscard]] static dvec3 reflected_share(const Bounce& bounce, std::size_t i) {
+    const TracedSurface& s = bounce.surfaces[i];
+    return static_cast<double>(s.occlusion * s.reflectivity) * specular_share(bounce.points[i]);
   }
 
   /// Adds what the rays of the next bounce show to the surfaces that they leave.
@@ -153,9 +179,8 @@ class PixelTracer {
     Bounce& bounce = bounces_[index];
     for (std::size_t begin = 0, end = 0; begin < from.size(); begin = end) {
       while (end < from.size() && from[end] == from[begin]) ++end;
-      const TracedSurface& s = bounce.surfaces[from[begin]];
-      bounce.radiance[from[begin]] += static_cast<double>(s.occlusion * s.reflectivity) *
-                                      specular_share(bounce.points[from[begin]]) * mean_seen(index + 1, begin, end);
+      bounce.radiance[from[begin]] +=
+          bounces_[index + 1].scales[begin] * reflected_share(bounce, from[begin]) * mean_seen(index + 1, begin, end);
     }
   }
 

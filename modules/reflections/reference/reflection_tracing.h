@@ -26,7 +26,8 @@
 //   traced by further rays along the surface's own lobe. Attributes: see TracedSurface.
 // - After ReflectionTracing::bounces surfaces, R is the mirrored radiance of the sky's model.
 // - Each ray of a pixel is followed by one ray, chosen in proportion to the lobe's weights (ReflectionLobe::one). If a
-//   pixel, or a mirror that it sees, has a single ray, the next surface has as many rays as a rough pixel.
+//   pixel, or a mirror that it sees, has a single ray, the next surface has as many rays as a rough pixel. Surfaces
+//   that show less than 5 % of their surroundings have fewer rays, in proportion.
 // - Lights are shadowed by rays to points of their emitters, as in the reference of shadows: a disc of the light's
 //   width that faces the point, a clearance before a lamp, bulbs that do not block their lamp. Shadow rays are shared
 //   among lights by the light that each would add. A highlight is as wide as its light, as in frames. Cookies are

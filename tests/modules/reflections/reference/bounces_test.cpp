@@ -236,13 +236,32 @@ TEST(Bounces, one_ray_for_each_surface_has_the_right_mean_also_where_weights_dif
                                  .to_eye = -glm::normalize(scene.geometry.position(x, y)),
                                  .roughness = 150.0 / 255.0};
     sums.add(
-        radiance, lobe_mean(floor, kUpward, 45, [&](const dvec3& direction) {
+        radiance, lobe_mean(floor, kUpward, 32, [&](const dvec3& direction) {
           const std::optional<dvec3> at = ReflectionScene::Mirrored{floor.position, direction}.at(kUpward, kCeiling);
           if (!at || std::max(std::abs(at->x), std::abs(at->z)) > 50.0) return test::oracle_sky(scene.sky(), direction);
-          return scene.above(floor.position, direction, 30);
+          return scene.above(floor.position, direction, 24);
         }));
   });
   sums.expect_equal(0.015, 0.05, 0.8f);
+}
+
+TEST(Bounces, surfaces_that_reflect_little_show_as_much_as_they_should) {
+  for (const std::uint32_t pixel_roughness : {0u, 20u}) {
+    Material matt = test::painted(vec3(0.0f), 0.6f);  // f0 is 0.04
+    matt.reflectivity = 0.3f;
+    MirroredCeiling scene(matt);
+    scene.sky() = {.sky_zenith = vec3(0.0f), .sky_horizon = vec3(0.0f), .sky_ground = vec3(0.0f)};
+    scene.floor_material(pixel_roughness, 0, 255);
+    scene.square(400.0, {0.0, -1.0, 0.0}, kUpward, glowing({20.0f, 10.0f, 5.0f}));
+    Sums sums;
+    scene.each_floor_pixel(scene.trace({.rays = 1024}), [&](std::uint32_t x, std::uint32_t y, const dvec3& radiance) {
+      const dvec3 share = share_of(scene.seen(x, y).surface);
+      if (y < 12) return;  // far rough pixels see the ceiling under many angles
+      EXPECT_LT(share.g * 0.3, 0.05);
+      sums.add(radiance, share * 0.3 * dvec3(20.0, 10.0, 5.0));
+    });
+    sums.expect_equal(0.02, 0.2, 0.6f);
+  }
 }
 
 TEST(Bounces, fog_and_quads_lie_along_the_second_ray) {
