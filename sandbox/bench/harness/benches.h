@@ -60,6 +60,8 @@ void add_closeup_flicker_benches(BenchRegistry& registry);
 /// The proxy pass with proxy tiles against the loop over all proxies, by number of tiles, and by view.
 void add_reflection_tile_benches(BenchRegistry& registry);
 /// Cost of the reflection chain, against the gather pass and against drawing the mirrored scene.
+void add_reflection_chain_benches(BenchRegistry& registry);
+void add_reflection_view_benches(BenchRegistry& registry);
 void add_reflection_cost_benches(BenchRegistry& registry);
 /// Error of each set of reflection tiers against traced reflections, by camera.
 void add_reflection_error_benches(BenchRegistry& registry);

@@ -81,6 +81,8 @@ BenchRegistry make_bench_registry() {
   add_closeup_cost_benches(registry);
   add_closeup_flicker_benches(registry);
   add_reflection_tile_benches(registry);
+  add_reflection_view_benches(registry);
+  add_reflection_chain_benches(registry);
   add_reflection_cost_benches(registry);
   add_reflection_error_benches(registry);
   add_reflection_temporal_benches(registry);

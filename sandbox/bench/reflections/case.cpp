@@ -84,6 +84,16 @@ Result<std::uint64_t> ReflectionFrames::hash() {
   return hash_of_light(*light);
 }
 
+Result<FrameSample> draw_in_mode(ReflectionFrames& frames, const char* mode, std::uint64_t& hash) {
+  GLOAM_TRY(frames.set("reflections.mode", mode));
+  auto sample = frames.draw();
+  if (!sample) return sample.error();
+  const auto light = frames.hash();
+  if (!light) return light.error();
+  hash = *light;
+  return sample;
+}
+
 double reflection_ms(const FrameSample& sample) {
   double ms = 0.0;
   for (const PassTime& pass : sample.report.passes) ms += is_main(pass) && pass.module == "reflections" ? pass.ms : 0.0;

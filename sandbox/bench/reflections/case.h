@@ -55,6 +55,9 @@ class ReflectionFrames {
   std::map<std::string, std::string> users_;  ///< values of the changed knobs before the change
 };
 
+/// Draws a frame with this reflections.mode. hash: set to that of its light.
+[[nodiscard]] Result<FrameSample> draw_in_mode(ReflectionFrames& frames, const char* mode, std::uint64_t& hash);
+
 /// Milliseconds of all passes of the module reflections in the main view.
 [[nodiscard]] double reflection_ms(const FrameSample& sample);
 /// Milliseconds of all passes of other views than the main one, without those that draw shadow maps; 0 without other

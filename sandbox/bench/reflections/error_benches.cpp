@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <map>
@@ -40,15 +41,18 @@ struct TierSet {
   const char* name;  ///< in the row's id
   ReflectionKnobs::Mode mode;
   ReflectionTiers tiers;
+  bool hierarchical = true;  ///< ssr.march
 };
-constexpr std::array<TierSet, 5> kTierSets = {
+constexpr std::array<TierSet, 6> kTierSets = {
     {{"off", ReflectionKnobs::Mode::off, {.screen_space = true, .proxies = true}},
      {"cube", ReflectionKnobs::Mode::tiers, {.screen_space = false, .proxies = false}},
      {"ssr+cube", ReflectionKnobs::Mode::tiers, {.screen_space = true, .proxies = false}},
      {"ibr+cube", ReflectionKnobs::Mode::tiers, {.screen_space = false, .proxies = true}},
-     {"all", ReflectionKnobs::Mode::tiers, {.screen_space = true, .proxies = true}}}};
+     {"all", ReflectionKnobs::Mode::tiers, {.screen_space = true, .proxies = true}},
+     {"all_constant_march", ReflectionKnobs::Mode::tiers, {.screen_space = true, .proxies = true}, false}}};
 constexpr std::size_t kCube = 1;
 constexpr std::size_t kAll = 4;
+constexpr std::size_t kConstantMarch = 5;
 
 struct JudgedCamera {
   const char* scene;  ///< "courtyard" or "wet_street"
@@ -117,23 +121,24 @@ ReflectionExtras extras_of(const World& world) {
 class TierKnobs {
  public:
   explicit TierKnobs(KnobRegistry& knobs)
-      : knobs_(knobs), mode_(knobs.value(kReflectionMode)), tiers_(knobs.value(kReflectionTiers)) {}
-  ~TierKnobs() { set(mode_, tiers_); }
+      : knobs_(knobs),
+        users_{"", knobs.value(kReflectionMode), knobs.value(kReflectionTiers), knobs.value(kSsrHierarchical)} {}
+  ~TierKnobs() { set(users_); }
   TierKnobs(const TierKnobs&) = delete;
   TierKnobs& operator=(const TierKnobs&) = delete;
-  void set(ReflectionKnobs::Mode mode, ReflectionTiers tiers) {
-    knobs_.set(kReflectionMode, mode);
-    knobs_.set(kReflectionTiers, tiers);
+  void set(const TierSet& tiers) {
+    knobs_.set(kReflectionMode, tiers.mode);
+    knobs_.set(kReflectionTiers, tiers.tiers);
+    knobs_.set(kSsrHierarchical, tiers.hierarchical);
   }
 
  private:
   KnobRegistry& knobs_;
-  ReflectionKnobs::Mode mode_;
-  ReflectionTiers tiers_;
+  TierSet users_;
 };
 
 Result<FramePictures> draw_tiers(SessionCosts& costs, TierKnobs& knobs, const TierSet& tiers) {
-  knobs.set(tiers.mode, tiers.tiers);
+  knobs.set(tiers);
   for (int i = 0; i < kReflectionErrorDraws; ++i)
     if (const auto drawn = costs.draw(0); !drawn) return drawn.error();
   return costs.read();
@@ -206,21 +211,29 @@ void add_reflection_camera_rows(BenchRegistry& registry, const std::shared_ptr<S
   }
 }
 
-/// Mean FLIP of all tiers over that of cube maps alone. scene: of JudgedCamera; empty: over all scenes.
-Result<BenchValue> flip_ratio(BenchContext& context, SharedReflections& shared, std::string_view scene) {
-  double all = 0.0, cube = 0.0;
-  std::uint64_t hash = 0;
+/// FLIP of two sets of tiers over cameras.
+struct FlipSums {
+  double first = 0.0, second = 0.0;
+  double worst_ratio = 0.0;  ///< of one camera, first over second
+  std::uint64_t hash = 0;    ///< 0: no camera
+};
+
+/// scene: of JudgedCamera; empty: all scenes.
+Result<FlipSums> sum_flip(BenchContext& context, SharedReflections& shared, std::string_view scene, std::size_t first,
+                          std::size_t second) {
+  FlipSums sums;
   for (std::size_t index = 0; index < kCameras.size(); ++index) {
     if (!scene.empty() && scene != kCameras[index].scene) continue;
     const auto errors = judge_reflections(context, shared, index);
     if (!errors) return errors.error();
     if (*errors == nullptr) continue;
-    all += (**errors)[kAll].flip;
-    cube += (**errors)[kCube].flip;
-    hash = hash_of_both(hash, hash_of_both((**errors)[kAll].hash, (**errors)[kCube].hash));
+    const TierError &a = (**errors)[first], &b = (**errors)[second];
+    sums.first += a.flip;
+    sums.second += b.flip;
+    if (b.flip > 0.0) sums.worst_ratio = std::max(sums.worst_ratio, a.flip / b.flip);
+    sums.hash = hash_of_both(sums.hash, hash_of_both(a.hash, b.hash));
   }
-  if (hash == 0) return skipped_row(no_courtyard());
-  return single_value(cube > 0.0 ? all / cube : 0.0, hash);
+  return sums;
 }
 
 }  // namespace
@@ -228,16 +241,27 @@ Result<BenchValue> flip_ratio(BenchContext& context, SharedReflections& shared, 
 void add_reflection_error_benches(BenchRegistry& registry) {
   const auto shared = std::make_shared<SharedReflections>();
   for (std::size_t index = 0; index < kCameras.size(); ++index) add_reflection_camera_rows(registry, shared, index);
-  const auto add = [&](const std::string& suffix, std::string scene, std::optional<double> bar) {
+  const auto add = [&](const std::string& id, std::string scene, std::size_t first, std::size_t second,
+                       std::optional<double> bar, auto value) {
     BenchRow row;
-    row.id = "reflections.flip_full_over_cube" + suffix;
+    row.id = "reflections." + id;
     row.unit = "ratio";
     row.bar = bar;
-    row.run = [shared, scene = std::move(scene)](BenchContext& context) { return flip_ratio(context, *shared, scene); };
+    row.run = [=](BenchContext& context) -> Result<BenchValue> {
+      const auto sums = sum_flip(context, *shared, scene, first, second);
+      if (!sums) return sums.error();
+      if (sums->hash == 0) return skipped_row(no_courtyard());
+      return single_value(value(*sums), sums->hash);
+    };
     registry.add(std::move(row));
   };
-  add("", "", 0.5);
-  for (const char* scene : {"courtyard", "wet_street"}) add(std::string(".") + scene, scene, std::nullopt);
+  const auto mean = [](const FlipSums& sums) { return sums.second > 0.0 ? sums.first / sums.second : 0.0; };
+  const auto worst = [](const FlipSums& sums) { return sums.worst_ratio; };
+  add("flip_full_over_cube", "", kAll, kCube, 0.45, mean);
+  for (const char* scene : {"courtyard", "wet_street"})
+    add(std::string("flip_full_over_cube.") + scene, scene, kAll, kCube, std::nullopt, mean);
+  add("worst_camera_full_over_cube", "", kAll, kCube, 1.0, worst);
+  add("flip_constant_over_hierarchical_march", "", kConstantMarch, kAll, std::nullopt, mean);
 }
 
 }  // namespace gloam

@@ -1,15 +1,12 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include <algorithm>
 #include <array>
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "engine/core/hash.h"
 #include "sandbox/bench/harness/benches.h"
 #include "sandbox/bench/harness/context.h"
 #include "sandbox/bench/harness/measure.h"
@@ -17,9 +14,8 @@
 #include "sandbox/bench/reflections/case.h"
 #include "sandbox/bench/reflections/halls.h"
 #include "sandbox/bench/shadows/case.h"
-#include "sandbox/session/results/summary.h"
 
-// The proxy pass with proxy tiles against the loop over all proxies, by number of tiles, and by view.
+// The proxy pass with proxy tiles against the loop over all proxies, and by number of tiles.
 
 namespace gloam {
 namespace {
@@ -28,10 +24,6 @@ constexpr const char* kPass = "reflection_proxies";
 constexpr int kTilePairs = 11;
 constexpr int kTileWarmUp = 2;
 constexpr std::array<const char*, 6> kTileCounts = {"1", "4", "8", "16", "32", "64"};
-constexpr std::size_t kTileViews = 200;
-constexpr int kViewRounds = 5;
-constexpr std::uint32_t kViewWidth = 640;
-constexpr std::uint32_t kViewHeight = 360;
 
 struct Loops {
   std::vector<double> tiled_ns;
@@ -98,35 +90,6 @@ Result<Curve> measure_curve(BenchContext& context) {
   return curve;
 }
 
-struct Views {
-  std::vector<double> ms;  ///< reflection passes of each view, of its fastest frame
-  std::uint64_t hash = 0;
-};
-
-/// Draws all views in several rounds and takes each one's fastest frame: other work on the machine only slows frames,
-/// and the worst of 200 views would be the one that it met. Shadows are off: they change no reflection pass.
-Result<Views> measure_views(BenchContext& context) {
-  auto session = context.open_builtin(context.scene_or(kWetStreet));
-  if (!session) return session.error();
-  ReflectionFrames frames(**session, kViewWidth, kViewHeight);
-  GLOAM_TRY(frames.set("shadows.mode", "off"));
-  if (const auto first = frames.draw(); !first) return first.error();  // uploads the captured images
-  const std::vector<dmat4> poses = recorded_walk(**session, context.scene_or(kWetStreet), kTileViews, true);
-  Views views{.ms = std::vector<double>(poses.size(), 1e9)};
-  for (int round = 0; round < kViewRounds; ++round)
-    for (std::size_t i = 0; i < poses.size(); ++i) {
-      frames.look_from(poses[i]);
-      const auto sample = frames.draw();
-      if (!sample) return sample.error();
-      views.ms[i] = std::min(views.ms[i], reflection_ms(*sample));
-      if (round > 0) continue;
-      const auto hash = frames.hash();
-      if (!hash) return hash.error();
-      views.hash = hash_of_both(views.hash, *hash);
-    }
-  return views;
-}
-
 using SharedLoops = std::shared_ptr<Once<Loops>>;
 
 template <class Value>
@@ -174,37 +137,12 @@ void add_curve_rows(BenchRegistry& registry) {
   }
 }
 
-void add_view_rows(BenchRegistry& registry) {
-  const auto shared = std::make_shared<Once<Views>>();
-  const auto add = [&](const char* id, const char* unit, auto value) {
-    BenchRow row;
-    row.id = std::string("reflections.") + id;
-    row.unit = unit;
-    row.run = [=](BenchContext& context) -> Result<BenchValue> {
-      const auto views = shared->get([&] { return measure_views(context); });
-      if (!views) return views.error();
-      BenchValue result = single_value(value((*views)->ms), (*views)->hash);
-      result.scene = context.scene_or(kWetStreet);
-      return result;
-    };
-    return row;
-  };
-  const auto worst = [](const std::vector<double>& ms) { return *std::ranges::max_element(ms); };
-  BenchRow ratio = add("worst_over_median_view", "ratio",
-                       [=](const std::vector<double>& ms) { return worst(ms) / std::max(summarize(ms).median, 1e-9); });
-  ratio.bar = 2.0;
-  registry.add(std::move(ratio));
-  registry.add(add("worst_view_ms", "ms", worst));
-  registry.add(add("median_view_ms", "ms", [](const std::vector<double>& ms) { return summarize(ms).median; }));
-}
-
 }  // namespace
 
 void add_reflection_tile_benches(BenchRegistry& registry) {
   add_loop_rows(registry, "reflections.tiled_over_naive", 1, 4.0);
   add_loop_rows(registry, "reflections.tiled_over_naive.four_rooms", 4, 8.0);
   add_curve_rows(registry);
-  add_view_rows(registry);
 }
 
 }  // namespace gloam
