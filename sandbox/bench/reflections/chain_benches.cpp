@@ -74,11 +74,17 @@ Result<std::unique_ptr<Session>> open_strips(BenchContext& context, int planes) 
 
 /// Frames with tiers, frames with one plane's planar reflections, and those of the scene with one plane, in turn.
 Result<Chain> measure_chain(BenchContext& context, int planes) {
-  const auto session = open_strips(context, planes), one_plane = open_strips(context, 1);
+  const auto session = open_strips(context, planes);
   if (!session) return session.error();
-  if (!one_plane) return one_plane.error();
   ReflectionFrames frames(**session, context.options().width, context.options().height);
-  ReflectionFrames one_frames(**one_plane, context.options().width, context.options().height);
+  std::unique_ptr<Session> one_plane;
+  std::optional<ReflectionFrames> one_frames;
+  if (planes > 1) {
+    auto opened = open_strips(context, 1);
+    if (!opened) return opened.error();
+    one_plane = std::move(opened).value();
+    one_frames.emplace(*one_plane, context.options().width, context.options().height);
+  }
   Chain chain;
   for (int i = -kChainWarmUp; i < kChainRounds; ++i) {
     std::uint64_t tiers_hash = 0, planar_hash = 0, one_hash = 0;
@@ -86,7 +92,7 @@ Result<Chain> measure_chain(BenchContext& context, int planes) {
     if (!tiers) return tiers.error();
     const auto planar = draw_in_mode(frames, "planar", planar_hash);
     if (!planar) return planar.error();
-    const auto one = planes == 1 ? planar : draw_in_mode(one_frames, "planar", one_hash);
+    const auto one = one_frames ? draw_in_mode(*one_frames, "planar", one_hash) : planar;
     if (!one) return one.error();
     if (companion_ms(*planar) <= 0.0 || companion_ms(*one) <= 0.0) return Chain{};
     chain.hash = hash_of_both(tiers_hash, hash_of_both(planar_hash, one_hash));
