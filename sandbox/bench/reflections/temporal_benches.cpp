@@ -38,8 +38,10 @@ constexpr std::array<const char*, 3> kWalkTiers = {"ssr+cube", "ibr+cube", "all"
 struct TemporalFlicker {
   double plain = 0.0;        ///< mean temporal error, cd/m² a frame
   double reprojected = 0.0;  ///< with reflections.temporal=on
+  double full_size = 0.0;    ///< with ssr.resolution=full: what more rays give without reprojection
   std::uint64_t plain_hash = 0;
   std::uint64_t reprojected_hash = 0;
+  std::uint64_t full_size_hash = 0;
 };
 
 using TemporalWalk = std::vector<LinearPicture>;
@@ -122,6 +124,10 @@ Result<TemporalFlicker> measure_temporal_walks(BenchContext& context, const char
       draw_walk(**session, poses, 1, {{"reflections.tiers", tiers}, {"reflections.temporal", "on"}});
   if (!reprojected) return reprojected.error();
   GLOAM_TRY(judge_walk(*reference, *reprojected, flicker.reprojected, flicker.reprojected_hash));
+  const auto full_size = draw_walk(
+      **session, poses, 1, {{"reflections.tiers", tiers}, {"reflections.temporal", "off"}, {"ssr.resolution", "full"}});
+  if (!full_size) return full_size.error();
+  GLOAM_TRY(judge_walk(*reference, *full_size, flicker.full_size, flicker.full_size_hash));
   return flicker;
 }
 
@@ -148,6 +154,8 @@ void add_reflection_temporal_benches(BenchRegistry& registry) {
         [](const TemporalFlicker& f) { return single_value(f.plain, f.plain_hash); });
     add(std::string(tiers) + ".reprojected", "cd/m² a frame", std::nullopt,
         [](const TemporalFlicker& f) { return single_value(f.reprojected, f.reprojected_hash); });
+    add(std::string(tiers) + ".full_size", "cd/m² a frame", std::nullopt,
+        [](const TemporalFlicker& f) { return single_value(f.full_size, f.full_size_hash); });
     if (tiers != std::string("all")) continue;
     add("reprojection_over_none", "ratio", 0.6, [](const TemporalFlicker& f) {
       return single_value(f.plain > 0.0 ? f.reprojected / f.plain : 0.0,

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "engine/scene/units.h"
 #include "tests/modules/reflections/judging/judged_scene.h"
 
 namespace gloam::test {
@@ -20,10 +21,11 @@ class SceneScales : public JudgedReflections {
     double reflected = 0.0;  ///< mean difference from the picture without reflections, of 255
   };
   /// A floor with two roughnesses, posts, walls with proxies, a room and probes. Lengths times `scale`, moved by
-  /// `place`; light on surfaces does not change.
-  Drawn draw_scaled(double scale, const dvec3& place) {
+  /// `place`; light on surfaces does not change. stated: the world says what its unit is (gloam.scale).
+  Drawn draw_scaled(double scale, const dvec3& place, bool stated) {
     World fresh;
     renderer->prepare_world(fresh);
+    if (stated) fresh.set_resource(SceneUnits{.metres_per_unit = 1.0 / scale});
     fresh.resource<SceneEnvironment>() = {
         .sky_zenith = {0.05f, 0.08f, 0.2f}, .sky_horizon = {0.1f, 0.1f, 0.12f}, .sky_ground = vec3(0.05f)};
     SceneMaker maker(fresh);
@@ -88,12 +90,12 @@ class SceneScales : public JudgedReflections {
       }
     return sum / (static_cast<double>(a.width) * a.height);
   }
-  void judge(double scale, const dvec3& place, const char* tiers) {
+  void judge(double scale, const dvec3& place, const char* tiers, bool stated) {
     set("reflections.tiers", tiers);
-    const Drawn usual = draw_scaled(1.0, dvec3(0.0)), other = draw_scaled(scale, place);
+    const Drawn usual = draw_scaled(1.0, dvec3(0.0), false), other = draw_scaled(scale, place, stated);
     const double difference = mean_difference(usual.picture, other.picture);
-    std::printf("scale %g at %g m, %s: mean difference %.3f of 255 (reflections: %.1f)\n", scale, glm::length(place),
-                tiers, difference, usual.reflected);
+    std::printf("scale %g%s at %g m, %s: mean difference %.3f of 255 (reflections: %.1f)\n", scale,
+                stated ? " (stated)" : "", glm::length(place), tiers, difference, usual.reflected);
     EXPECT_GT(usual.reflected, 3.0);
     EXPECT_LT(difference, kMostMean) << tiers;
   }
@@ -102,15 +104,23 @@ class SceneScales : public JudgedReflections {
 };
 
 TEST_F(SceneScales, a_hundredth) {
-  for (const char* tiers : {"ssr+cube", "ibr+cube", "all"}) judge(0.01, dvec3(0.0), tiers);
+  for (const char* tiers : {"ssr+cube", "ibr+cube", "all"}) judge(0.01, dvec3(0.0), tiers, false);
 }
 TEST_F(SceneScales, a_hundred_times) {
-  for (const char* tiers : {"ssr+cube", "ibr+cube", "all"}) judge(100.0, dvec3(0.0), tiers);
+  for (const char* tiers : {"ssr+cube", "ibr+cube", "all"}) judge(100.0, dvec3(0.0), tiers, false);
+}
+TEST_F(SceneScales, a_hundredth_with_its_unit_stated) {
+  for (const char* tiers : {"ssr+cube", "ibr+cube", "all"}) judge(0.01, dvec3(0.0), tiers, true);
+}
+TEST_F(SceneScales, a_hundred_times_with_its_unit_stated) {
+  for (const char* tiers : {"ssr+cube", "ibr+cube", "all"}) judge(100.0, dvec3(0.0), tiers, true);
 }
 TEST_F(SceneScales, five_kilometres_away) {
-  for (const char* tiers : {"ssr+cube", "ibr+cube", "all"}) judge(1.0, dvec3(3000.0, 16.0, -4000.0), tiers);
+  for (const char* tiers : {"ssr+cube", "ibr+cube", "all"}) judge(1.0, dvec3(3000.0, 16.0, -4000.0), tiers, false);
 }
-TEST_F(SceneScales, a_hundredth_at_fifty_metres) { judge(0.01, dvec3(30.0, 0.16, -40.0), "all"); }
+TEST_F(SceneScales, a_hundredth_at_fifty_metres) {
+  for (const bool stated : {false, true}) judge(0.01, dvec3(30.0, 0.16, -40.0), "all", stated);
+}
 
 }  // namespace
 }  // namespace gloam::test
