@@ -44,9 +44,12 @@ void add_surroundings(FrameBuilder& frame, ShadingInputs& inputs) {
     std::copy_n(probes->rows.begin(), std::min<std::size_t>(inputs.probes, GLOAM_FEW_PROBES), constants.few_probes);
   }
   inputs.surroundings = frame.upload_uniform(constants);
-  const shaders::ProbeRow none{};
-  const bool any = inputs.probes > 0;
-  inputs.probe_rows = frame.upload_items(any ? std::span<const shaders::ProbeRow>(probes->rows) : std::span(&none, 1));
+  const shaders::ProbeRow no_row{};
+  const vec4 no_factor(1.0f);
+  const bool any = inputs.probes > 0, changed = probes != nullptr && !probes->factors.empty();
+  inputs.probe_rows = frame.upload_items(any ? std::span<const shaders::ProbeRow>(probes->rows) : std::span(&no_row, 1));
+  inputs.capture_factors =
+      frame.upload_items(changed ? std::span<const vec4>(probes->factors) : std::span(&no_factor, 1));
 }
 
 }  // namespace
@@ -85,6 +88,7 @@ void read_surroundings(ShaderPass& pass, FrameBuilder& frame) {
   pass.read_if_declared("environment", inputs.environment);
   pass.read_if_declared("surroundings", inputs.surroundings);
   pass.read_if_declared("probe_rows", inputs.probe_rows);
+  pass.read_if_declared("capture_factors", inputs.capture_factors);
   pass.read_if_declared("probe_images", inputs.probe_images, Sampling::linear);
 }
 

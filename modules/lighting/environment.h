@@ -19,6 +19,7 @@ struct ShadingInputs {
   std::uint32_t probes = 0;             ///< rows
   gpu::Binding::BufferRange surroundings;  ///< SurroundingsConstants
   gpu::Binding::BufferRange probe_rows;
+  gpu::Binding::BufferRange capture_factors;
   ImageRef probe_images;
   bool transmission = false;            ///< lets_light_through()
   bool plain_highlights = false;        ///< of points at points: neither lights nor pixels have a width

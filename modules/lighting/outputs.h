@@ -46,6 +46,7 @@ struct SpecularAmbientTaken {};
 /// ones in SurroundingsOutput. The module that has them puts this on the board in PassPhase::announce.
 struct SurroundingProbes {
   std::vector<shaders::ProbeRow> rows;  ///< probes with a box from the smallest to the largest, then the global one
+  std::vector<vec4> factors;            ///< of captured light (changed_light_api.glsl); ProbeRow::factor
   ImageRef images;                      ///< octahedral maps, one layer each (probes_api.glsl); null without rows
   float scale = 1.0f;                   ///< from the light of the images to that of the view
   bool surroundings_follow = false;     ///< SurroundingsOutput will follow

@@ -3,9 +3,13 @@
 #include "modules/reflections/bake.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
+#include <iterator>
 #include <optional>
+#include <span>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -24,6 +28,7 @@
 #include "modules/reflections/bake/proxy_texture.h"
 #include "modules/reflections/components.h"
 #include "modules/reflections/culling/placed.h"
+#include "modules/reflections/relighting/light_states.h"
 
 namespace gloam {
 namespace {
@@ -64,6 +69,34 @@ std::vector<ProbeToBake> probes_to_bake(const World& world) {
   return probes;
 }
 
+/// Layers with the part of captures that no lamp causes. They come after the layers of the captures themselves.
+class EmissionLayers {
+ public:
+  /// layers: with the number of the captures.
+  explicit EmissionLayers(CapturedLayers& layers) : layers_(layers) {}
+
+  /// append: appends the halves of one layer to a vector. Returns CapturedParts::emission: −1 if there is no room.
+  template <class Append>
+  [[nodiscard]] std::int32_t add(const Append& append) {
+    const std::uint32_t layer = layers_.count + count_;
+    if (layer >= kMostLayers) return -1;
+    append(texels_);
+    ++count_;
+    return static_cast<std::int32_t>(layer);
+  }
+  /// Call it after the last capture.
+  void append() {
+    layers_.texels.insert(layers_.texels.end(), texels_.begin(), texels_.end());
+    layers_.count += count_;
+  }
+
+ private:
+  static constexpr std::uint32_t kMostLayers = 2048;  // of an array image, on every device
+  CapturedLayers& layers_;
+  std::vector<std::uint16_t> texels_;
+  std::uint32_t count_ = 0;
+};
+
 /// Captures of one world.
 class Bake {
  public:
@@ -86,7 +119,7 @@ class Bake {
     total_ = proxies.size() + probes.size();
     captures_.content = capture_content(world_);
     captures_.light_scale = light_scale(scene_brightness(world_));
-    for (const LightSource& source : sources_) captures_.lights.push_back({source.entity, source.emitted()});
+    captures_.lights = light_states(world_);
     if (settings_.progress) settings_.progress(0, total_);
     GLOAM_TRY(add_proxies(proxies));
     GLOAM_TRY(add_probes(probes));
@@ -99,37 +132,58 @@ class Bake {
     captures_.proxies.side = settings_.proxy_side;
     captures_.proxies.mips = static_cast<std::uint32_t>(std::bit_width(settings_.proxy_side));
     captures_.proxies.count = static_cast<std::uint32_t>(proxies.size());
-    for (const ProxyToBake& proxy : proxies) GLOAM_TRY(add_proxy(proxy));
+    EmissionLayers emission(captures_.proxies);
+    for (const ProxyToBake& proxy : proxies) GLOAM_TRY(add_proxy(proxy, emission));
+    emission.append();
     return {};
   }
 
-  [[nodiscard]] Status add_proxy(const ProxyToBake& proxy) {
+  [[nodiscard]] Status add_proxy(const ProxyToBake& proxy, EmissionLayers& emission) {
     if (const FlameProxy* flame = world_.try_get<FlameProxy>(proxy.placed.entity)) {
       add_flame(proxy.placed.entity, flame->flame);
       return {};
     }
-    const SceneStrings& strings = world_.resource<SceneStrings>();
-    auto chosen = proxy_lights(world_, proxy.placed, strings.text(proxy.proxy.lights), sources_);
+    const std::string_view names = world_.resource<SceneStrings>().text(proxy.proxy.lights);
+    auto chosen = proxy_lights(world_, proxy.placed, names, sources_);
     if (!chosen.ok()) return chosen.error();
-    auto picture = proxy.proxy.texture == 0
+    auto capture = proxy.proxy.texture == 0
                        ? capture_proxy(renderer_, world_, proxy.placed, settings_.proxy_side, captures_.light_scale)
-                       : read_proxy_texture(strings.text(proxy.proxy.texture), settings_.proxy_side);
-    if (!picture.ok()) return picture.error();
-    if (proxy.proxy.texture != 0 && proxy.proxy.kind == IbrProxyKind::fire) {
-      scale_to_lights(*picture, 4.0 * glm::length(glm::cross(proxy.placed.half_u, proxy.placed.half_v)), sources_,
-                      *chosen, captures_.light_scale);
-    } else if (proxy.proxy.texture != 0) {
-      for (vec4& texel : picture->texels) texel = vec4(vec3(texel) * captures_.light_scale, texel.w);
-    }
+                       : image_capture(proxy, *chosen);
+    if (!capture.ok()) return capture.error();
     const auto layer = static_cast<std::uint32_t>(captures_.proxy_entities.size());
+    CapturedParts parts = parts_of(capture->all, capture->unlit);
+    parts.surface_m = capture->surface_m;
+    std::vector<CapturedLightState> lamps;
+    std::ranges::copy_if(captures_.lights, std::back_inserter(lamps), [&](const CapturedLightState& light) {
+      return names.empty() || std::ranges::find(*chosen, light.light, &CapturedProxyLight::light) != chosen->end();
+    });
+    parts.lamps_lux = illuminances(lamps, proxy_patches(proxy.placed, parts.surface_m));
+    if (parts.unlit > 0.0f)
+      parts.emission = emission.add(
+          [&](std::vector<std::uint16_t>& halves) { append_mip_chain(std::move(capture->unlit), halves); });
+    captures_.proxy_parts.push_back(parts);
     for (CapturedProxyLight& light : *chosen) {
       light.layer = layer;
       captures_.proxy_lights.push_back(light);
     }
     captures_.proxy_entities.push_back(proxy.placed.entity);
-    append_mip_chain(std::move(picture).value(), captures_.proxies.texels);
+    append_mip_chain(std::move(capture->all), captures_.proxies.texels);
     tell_progress();
     return {};
+  }
+
+  /// The image file of a proxy in place of a capture.
+  [[nodiscard]] Result<ProxyCapture> image_capture(const ProxyToBake& proxy,
+                                                   std::span<const CapturedProxyLight> chosen) const {
+    auto picture = read_proxy_texture(world_.resource<SceneStrings>().text(proxy.proxy.texture), settings_.proxy_side);
+    if (!picture.ok()) return picture.error();
+    if (proxy.proxy.kind == IbrProxyKind::fire) {
+      scale_to_lights(*picture, 4.0 * glm::length(glm::cross(proxy.placed.half_u, proxy.placed.half_v)), sources_,
+                      chosen, captures_.light_scale);
+    } else {
+      for (vec4& texel : picture->texels) texel = vec4(vec3(texel) * captures_.light_scale, texel.w);
+    }
+    return ProxyCapture{.all = std::move(picture).value(), .unlit = {}};
   }
 
   /// The flame itself says how bright it is: no light dims its proxy.
@@ -140,6 +194,7 @@ class Bake {
     if (source != nullptr && source->picture) picture.texels = source->picture(world_, flame, side);
     for (vec4& texel : picture.texels) texel = vec4(storable(captures_.light_scale * vec3(texel)), texel.w);
     captures_.proxy_entities.push_back(proxy);
+    captures_.proxy_parts.emplace_back();
     append_mip_chain(std::move(picture), captures_.proxies.texels);
     tell_progress();
   }
@@ -150,15 +205,50 @@ class Bake {
     for (const ProbeToBake& probe : probes) layers.side = std::max(layers.side, probe_map_side(probe.probe.resolution));
     layers.mips = probe_map_mips(layers.side);
     layers.count = static_cast<std::uint32_t>(probes.size());
+    EmissionLayers emission(layers);
     for (const ProbeToBake& probe : probes) {
-      const auto faces =
-          draw_cube_faces(renderer_, world_, probe.eye, probe_face_side(probe.probe.resolution), captures_.light_scale);
+      const auto draw = [&](CapturedLamps lamps) {
+        return draw_cube_faces(renderer_, world_, probe.eye, probe_face_side(probe.probe.resolution),
+                               captures_.light_scale, lamps);
+      };
+      const auto append = [&](const std::array<CapturedPicture, 6>& faces, std::vector<std::uint16_t>& halves) {
+        append_probe_map(CapturedCube(faces, *settings_.executor), layers.side, *settings_.executor, halves);
+      };
+      const auto faces = draw(CapturedLamps::on), unlit = draw(CapturedLamps::left_out);
       if (!faces.ok()) return faces.error();
-      append_probe_map(CapturedCube(*faces, *settings_.executor), layers.side, *settings_.executor, layers.texels);
+      if (!unlit.ok()) return unlit.error();
+      CapturedParts parts;
+      for (std::size_t face = 0; face < faces->size(); ++face) {
+        const CapturedParts seen = parts_of((*faces)[face], (*unlit)[face]);
+        parts.lit += seen.lit / 6.0f, parts.unlit += seen.unlit / 6.0f;
+      }
+      auto surfaces = probe_surfaces(renderer_, world_, probe.eye);
+      if (!surfaces.ok()) return surfaces.error();
+      parts.surfaces = std::move(surfaces).value();
+      parts.lamps_lux = illuminances(captures_.lights, probe_patches(probe.eye, parts.surfaces));
+      if (parts.unlit > 0.0f)
+        parts.emission = emission.add([&](std::vector<std::uint16_t>& halves) { append(*unlit, halves); });
+      append(*faces, layers.texels);
       captures_.probe_entities.push_back(probe.entity);
+      captures_.probe_parts.push_back(parts);
       tell_progress();
     }
+    emission.append();
     return {};
+  }
+
+  /// Without the layer and the lamps. unlit: empty if lamps cause all light.
+  [[nodiscard]] CapturedParts parts_of(const CapturedPicture& all, const CapturedPicture& unlit) const {
+    const auto mean = [&](const CapturedPicture& picture) {
+      double sum = 0.0;
+      for (const vec4& texel : picture.texels) sum += luminance_of(dvec3(texel));
+      return sum / (static_cast<double>(std::max<std::size_t>(picture.texels.size(), 1)) *
+                    static_cast<double>(captures_.light_scale));
+    };
+    CapturedParts parts;
+    parts.unlit = static_cast<float>(mean(unlit));
+    parts.lit = static_cast<float>(std::max(mean(all) - mean(unlit), 0.0));
+    return parts;
   }
 
   void tell_progress() {

@@ -6,8 +6,6 @@
 #include <string_view>
 
 #include "engine/render/declare/shader_pass.h"
-#include "modules/lighting/outputs.h"
-#include "modules/reflections/frame.h"
 
 namespace gloam {
 
@@ -16,13 +14,6 @@ template <class T>
 void bind_rows(ShaderPass& pass, std::string_view binding, std::span<const T> rows) {
   const T none[1] = {};
   pass.items(binding, rows.empty() ? std::span<const T>(none) : rows);
-}
-
-/// Binds what shaders/reflections/proxies/changed_light_api.glsl reads.
-inline void read_changed_lights(ShaderPass& pass, FrameBuilder& frame, std::span<const shaders::ChangedLight> changed) {
-  bind_rows(pass, "changed_lights", changed);
-  const DiffuseLightOutput* diffuse = frame.find<DiffuseLightOutput>();
-  pass.read("diffuse_light", diffuse != nullptr ? diffuse->light : ImageRef{});
 }
 
 }  // namespace gloam

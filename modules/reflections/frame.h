@@ -31,8 +31,8 @@ struct ReflectionPlan {
   bool mirror = false;                       ///< mirror surfaces get a reflection: tiers 1 and 2, or `planar`
   shaders::ReflectionConstants constants{};  ///< without fog
   std::vector<shaders::ProxyRow> proxies;
-  std::vector<shaders::ChangedLight> changed;
-  bool no_specular = false;                   ///< for references: nothing is added (ReflectionOverride)
+  std::vector<vec4> factors;  ///< of captured light (changed_light_api.glsl); ProxyRow::factor
+  bool no_specular = false;   ///< for references: nothing is added (ReflectionOverride)
   const TracedReflections* traced = nullptr;  ///< for references: takes the place of all tiers
   std::optional<PlanarMirror> planar;         ///< takes the place of tiers 1 and 2
 };
@@ -47,9 +47,9 @@ struct ReflectionUniforms {
 /// Proxies that rays of the view may meet.
 struct ProxyInputs {
   std::span<const shaders::ProxyRow> rows;
-  std::span<const std::uint32_t> masks;            ///< ProxyTiles::masks
-  std::span<const shaders::ChangedLight> changed;  ///< lights that have changed since the capture
-  ImageRef images;                                 ///< captures, one layer each; null: none
+  std::span<const std::uint32_t> masks;  ///< ProxyTiles::masks
+  std::span<const vec4> factors;         ///< ReflectionPlan::factors
+  ImageRef images;                       ///< captures, one layer each; null: none
 };
 
 /// Tiles of GLOAM_REFLECTION_GROUP texels' side, and those among them that hold a mirror surface.

@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: MIT
 #include "modules/reflections/module.h"
 
+#include <map>
+
 #include "engine/render/frame_builder.h"
 #include "engine/render/views/seen_surfaces.h"
+#include "engine/render/worlds/world_id.h"
 #include "engine/scene/assets.h"
 #include "engine/scene/keys/table.h"
 #include "modules/lighting/outputs.h"
@@ -24,6 +27,7 @@
 #include "modules/reflections/proxies/systems.h"
 #include "modules/reflections/reference/adapter.h"
 #include "modules/reflections/reflection_passes.h"
+#include "modules/reflections/relighting/capture_factors.h"
 
 namespace gloam {
 namespace {
@@ -155,7 +159,7 @@ class ReflectionsModule final : public Module {
   }
   void add_passes(FrameBuilder& frame, PassPhase phase) override {
     if (phase == PassPhase::announce) {
-      announce_reflections(frame, staging_);
+      announce_reflections(frame, staging_, factors_of(frame.world()));
       announce_reflection_view(frame);
     }
     if (phase == PassPhase::lists) add_reflection_list_passes(frame);
@@ -171,6 +175,9 @@ class ReflectionsModule final : public Module {
     sink.count("ibr.proxies_other_room", tiles.count(ProxyOutcome::other_room));
     sink.count("ibr.proxies_faces_away", tiles.count(ProxyOutcome::faces_away));
     sink.count("ibr.proxies_out_of_view", tiles.count(ProxyOutcome::out_of_view));
+    const auto factors = factors_.find(world_id(world));
+    sink.count("reflections.outdated",
+               factors == factors_.end() ? 0.0 : static_cast<double>(factors->second.outdated()));
   }
   [[nodiscard]] Status add_pick_copies(FrameBuilder& frame, Captures& copies) override {
     return add_reflection_pick_copies(frame, copies);
@@ -179,7 +186,10 @@ class ReflectionsModule final : public Module {
                                               const Captures& copies) const override {
     return reflection_pick_lines(frame, pixel, copies);
   }
-  void release() override { staging_.release(); }
+  void release() override {
+    staging_.release();
+    factors_.clear();
+  }
 
  private:
   static ProxyTileSettings tile_settings(const World& world, ViewId view, const KnobRegistry& registry) {
@@ -189,9 +199,16 @@ class ReflectionsModule final : public Module {
     return settings;
   }
 
+  CaptureFactors& factors_of(const World& world) {
+    if (factors_.size() > kMostWorlds) factors_.clear();  // of worlds that are gone
+    return factors_[world_id(world)];
+  }
+
+  static constexpr std::size_t kMostWorlds = 8;
   Staging staging_{"reflections"};
-  std::size_t last_probes_ = 0;  ///< captured probes of the last frame
-  bool last_blended_ = false;    ///< it had a BlendedLayer
+  std::map<std::uint64_t, CaptureFactors> factors_;  ///< by world_id
+  std::size_t last_probes_ = 0;                      ///< captured probes of the last frame
+  bool last_blended_ = false;                        ///< it had a BlendedLayer
 };
 
 }  // namespace

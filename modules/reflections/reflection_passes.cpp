@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <span>
 #include <utility>
 
 #include "engine/scene/assets.h"
@@ -51,7 +53,6 @@ shaders::ReflectionConstants constants_of(const RenderView& view, const Reflecti
   c.blur_scale =
       knobs.pixel_roughness ? kLobeWidth / texel_size(view, c.scale) : 0.5f * static_cast<float>(c.blur_radius);
   c.blur_across = knobs.pixel_roughness ? kLeastAcross : kAcross;
-  c.light_scale = knobs.light_scale ? 1.0f : 0.0f;
   return c;
 }
 
@@ -79,11 +80,13 @@ ReflectionUniforms upload_uniforms(FrameBuilder& frame, const ReflectionPlan& pl
 }
 
 /// The probes of the view, for lighting.
-SurroundingProbes surrounding_probes(FrameBuilder& frame, Staging& staging) {
+SurroundingProbes surrounding_probes(FrameBuilder& frame, Staging& staging, std::span<const CaptureFactor> factors,
+                                     std::span<const vec4> cells) {
   const World& world = frame.world();
   const auto& captures = world.resource<ReflectionCaptures>();
   SurroundingProbes probes;
-  probes.rows = probe_rows(world, frame.view(), captures);
+  probes.rows = probe_rows(world, frame.view(), captures, factors, cells);
+  probes.factors.assign(cells.begin(), cells.end());
   if (!probes.rows.empty())
     probes.images = upload_captures(frame, staging, "reflection_probes", captures.probes, captures.version);
   probes.scale = frame.view().light_scale / captures.light_scale;
@@ -103,7 +106,8 @@ void add_mirror_passes(FrameBuilder& frame, Staging& staging, const ReflectionPl
   const auto& captures = frame.world().resource<ReflectionCaptures>();
   ProxyInputs proxies{.rows = plan.proxies,
                       .masks = frame.world().view_resource<ProxyTiles>(frame.view().id).masks,
-                      .changed = plan.changed};
+                      .factors = plan.factors,
+                      .images = {}};
   if (knobs.proxies)
     proxies.images = upload_captures(frame, staging, "reflection_proxies", captures.proxies, captures.version);
   ScreenSpaceHits hits;
@@ -118,7 +122,7 @@ void add_mirror_passes(FrameBuilder& frame, Staging& staging, const ReflectionPl
 
 }  // namespace
 
-void announce_reflections(FrameBuilder& frame, Staging& staging) {
+void announce_reflections(FrameBuilder& frame, Staging& staging, CaptureFactors& factors) {
   const ReflectionKnobs knobs = reflection_knobs(frame.knobs());
   if (knobs.mode == ReflectionKnobs::Mode::off) return;
   const World& world = frame.world();
@@ -127,11 +131,17 @@ void announce_reflections(FrameBuilder& frame, Staging& staging) {
   const Reflective seen = strongest_reflection(world.resource<SceneAssets>(), frame.draws());
   if (seen == Reflective::no) return;
   const auto& captures = world.resource<ReflectionCaptures>();
-  SurroundingProbes probes = surrounding_probes(frame, staging);
   ReflectionPlan plan;
   plan.knobs = knobs;
   plan.planar = drawn_planar_mirror(frame);
   plan.traced = traced_of(world, view);
+  std::span<const CaptureFactor> of_proxies, of_probes;
+  if (knobs.light_scale) {
+    factors.update(world, captures);
+    of_proxies = factors.proxies(), of_probes = factors.probes();
+    plan.factors.assign(factors.cells().begin(), factors.cells().end());
+  }
+  SurroundingProbes probes = surrounding_probes(frame, staging, of_probes, plan.factors);
   plan.no_specular = change != nullptr && *change == ReflectionOverride::no_specular;
   const bool reference = plan.no_specular || plan.traced != nullptr;
   plan.mirror = !reference && seen == Reflective::mirror && (knobs.mirror() || plan.planar);
@@ -140,7 +150,7 @@ void announce_reflections(FrameBuilder& frame, Staging& staging) {
   plan.constants.capture_scale = view.light_scale / captures.light_scale;
   if (knobs.proxies)
     plan.proxies = proxy_rows(world, view, world.resource<ProxySet>(), world.view_resource<ProxyTiles>(view.id),
-                              captures, knobs.naive);
+                              captures, of_proxies, knobs.naive, plan.factors);
   if (plan.mirror && !plan.planar && knobs.screen_space && !frame.draws().blended.empty())
     frame.put(BlendedLayerWanted{});
   probes.surroundings_follow = !reference;

@@ -4,19 +4,35 @@
 #define GLOAM_SHADERS_LIGHTING_PROBES_API_GLSL
 
 #include "shaders/common/math.glsl"
+#include "shaders/lighting/changed_light_api.glsl"
 #include "shaders/lighting/probes_shared.h"
 
 // Cube probes: captured surroundings, as octahedral maps in the layers of `probe_images`, prefiltered by roughness in
-// their mips. Include this after the image `probe_images` and the buffer `probe_rows`; rows are ordered: probes with a
+// their mips. Include this after the image `probe_images` and the buffers `probe_rows` and `capture_factors`; rows are ordered: probes with a
 // box from the smallest to the largest, then the global one.
 
-// Radiance that the probe's layer shows in a direction, for a roughness.
-vec3 probe_radiance(float layer, vec3 direction, float roughness) {
+// Point of a probe's map that shows a direction.
+vec2 probe_uv(vec3 direction) { return octahedral_encode(direction.xzy) * 0.5 + 0.5; }
+
+// Radiance that a layer shows at a point of its map, for a roughness.
+vec3 probe_layer_radiance(float layer, vec2 uv, float roughness) {
   float lod = roughness * float(textureQueryLevels(probe_images) - 1);
-  vec2 uv = octahedral_encode(direction.xzy) * 0.5 + 0.5;
   // The border of the image is the fold of the lower half: no texel beyond it may be filtered in.
   float half_texel = 0.5 * exp2(ceil(lod)) / float(textureSize(probe_images, 0).x);
   return textureLod(probe_images, vec3(clamp(uv, half_texel, 1.0 - half_texel), layer), lod).rgb;
+}
+
+// Radiance of a probe in a direction, with lamps as they are now. layer, emission, factor: of its row.
+vec3 probe_radiance(float layer, float emission, float factor, vec3 direction, float roughness) {
+  vec2 uv = probe_uv(direction);
+  vec3 light = probe_layer_radiance(layer, uv, roughness);
+  // A loop, not a condition: devices that are processors run both sides of a condition.
+  for (bool changed = factor >= 0.0; changed; changed = false) {
+    vec3 unscaled = vec3(0.0);
+    if (emission >= 0.0) unscaled = probe_layer_radiance(emission, uv, roughness);
+    light = followed_light(light, unscaled, captured_factor(factor, GLOAM_PROBE_CELLS, uv));
+  }
+  return light;
 }
 
 // Share of the probe at a point: 1 inside, falling to 0 toward the faces of its box.
@@ -72,7 +88,7 @@ GLOAM_CHOOSE_PROBES
 vec3 seen_in_probe(uint row, vec3 position, vec3 direction, float roughness) {
   ProbeRow probe = probe_rows[row];
   vec3 toward = parallax_direction(probe, place_in_probe(probe, position), position, direction);
-  return probe_radiance(probe.layer, probe.global > 0.5 ? direction : toward, roughness);
+  return probe_radiance(probe.layer, probe.emission, probe.factor, probe.global > 0.5 ? direction : toward, roughness);
 }
 
 // Radiance of all probes for a reflected ray. covered: how much of it the probes give, 0…1; the rest is the sky's.

@@ -6,6 +6,7 @@
 #include "shaders/common/prelude.h"
 
 #define GLOAM_FEW_PROBES 6
+#define GLOAM_PROBE_CELLS 16  // cells along each side of a probe's map that have a factor of their own
 
 GLOAM_SHARED_BEGIN
 
@@ -18,7 +19,8 @@ struct ProbeRow {
   vec3 to_y;
   float global;  // 1: without a box
   vec3 to_z;
-  float unused;
+  float emission;  // layer of the part of the light that factors do not scale; −1: they scale all
+  float factor;    // first of the probe's factors; −1: all are 1
   vec4 above;  // rgb: mean radiance about the direction up, as a surface of roughness 1 mirrors it
   vec4 below;  // the same about the direction down
 };

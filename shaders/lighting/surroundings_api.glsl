@@ -7,7 +7,7 @@
 #include "shaders/lighting/probes_shared.h"
 
 // What a surface mirrors of its surroundings: the probes and, beyond them, sky and ground. Before including this,
-// declare the uniform `environment` and define GLOAM_SURROUNDINGS_BINDING, the first of three bindings;
+// declare the uniform `environment` and define GLOAM_SURROUNDINGS_BINDING, the first of four bindings;
 // read_surroundings() binds them.
 
 // 0: sky and ground alone, for all surfaces alike. 1: by the probes' rows, as far as a surface is reflective.
@@ -20,6 +20,9 @@ layout(set = 0, binding = GLOAM_SURROUNDINGS_BINDING, scalar) uniform Surroundin
 };
 layout(set = 0, binding = GLOAM_SURROUNDINGS_BINDING + 1, scalar) readonly buffer ProbeRows { ProbeRow probe_rows[]; };
 layout(set = 0, binding = GLOAM_SURROUNDINGS_BINDING + 2) uniform sampler2DArray probe_images;
+layout(set = 0, binding = GLOAM_SURROUNDINGS_BINDING + 3, scalar) readonly buffer CaptureFactors {
+  vec4 capture_factors[];
+};
 
 // Calls visit(row, its index) for each row; not a loop: rows at constant places of a uniform are read once, not by each
 // thread.

@@ -28,9 +28,7 @@ struct ReflectionConstants {
   vec4 fog_radiance;    // rgb, cd/m²
   float fog_density;    // 1/m
   float fog_sky_m;      // path length through the fog of rays that meet no surface
-  float light_scale;    // 1: proxies and probes follow the current lights; 0: as captured
   uint centered;        // 1: a texel shows the middle of its block; 0: the block's first candidate
-  uint changed_lights;  // lights that differ from their state at capture
   float unit_m;         // scene_unit(): hit distances are stored in hundredths of it
   float capture_scale;  // from the light of captures to that of the view
 };
@@ -56,12 +54,13 @@ struct ProxyRow {
   vec3 center;
   float radius_m;  // of the bounding sphere
   vec3 normal;
-  float dim;    // factor of the proxy's own lights
-  vec3 to_u;    // dot(to_u, p − center): −1…1 on the proxy
-  float layer;  // of the captured images
+  float opacity;  // factor of the captured alpha, 0…1; 0: the proxy is not shown
+  vec3 to_u;      // dot(to_u, p − center): −1…1 on the proxy
+  float layer;    // of the captured images
   vec3 to_v;
-  float scaled;   // 1: follows the diffuse light of the receiver; 0: a light of its own (fire)
-  vec4 lowest_y;  // heights of the receivers, relative to the camera: in one of four bands
+  float emission;  // layer of the part of the light that factors do not scale; −1: they scale all
+  float factor;    // first of the proxy's factors; −1: all are 1
+  vec4 lowest_y;   // heights of the receivers, relative to the camera: in one of four bands
   vec4 highest_y;
   float texel_m;  // size of a texel of mip 0
   uint room;      // 1: of a room that holds the camera, or of no room as the camera
@@ -73,17 +72,6 @@ struct ProxyTileConstants {
   uint words;    // mask words of a tile
   uint proxies;  // rows
   uint probes;   // rows of cube probes
-};
-
-/// A light that differs from its state at the time of capture; otherwise as LocalLight and DirectionalLight.
-struct ChangedLight {
-  vec3 position;  // relative to the camera
-  float inverse_range_squared;
-  vec3 missing;  // candela or lux at the time of capture, minus today's
-  float spot_scale;
-  vec3 direction;
-  float spot_offset;
-  float directional;  // 1: lux from `direction`; the light has no position
 };
 
 GLOAM_SHARED_END
@@ -102,6 +90,7 @@ GLOAM_SHARED_END
 #define GLOAM_TILE_LISTS 4u
 
 #define GLOAM_TILE_ROW 64
+#define GLOAM_PROXY_CELLS 4  // cells along each side of a proxy's image that have a factor of their own
 #define GLOAM_REFLECTION_GROUP 8
 #define GLOAM_BLUR_GROUP 64        // texels of a row or column that a workgroup blurs
 #define GLOAM_MOST_BLUR_RADIUS 32  // texels

@@ -61,9 +61,68 @@ Entity read_entity(ByteReader& bytes, const std::vector<Entity>& entities) {
   return bytes.ok() ? entities[position] : kNoEntity;
 }
 
+void write_parts(ByteWriter& bytes, const std::vector<CapturedParts>& parts) {
+  bytes.value(static_cast<std::uint32_t>(parts.size()));
+  for (const CapturedParts& part : parts) {
+    bytes.value(part.emission);
+    bytes.value(part.surface_m);
+    bytes.value(static_cast<std::uint32_t>(part.surfaces.size()));
+    bytes.items(std::span<const CapturedSurface>(part.surfaces));
+    bytes.value(static_cast<std::uint32_t>(part.lamps_lux.size()));
+    bytes.items(std::span<const vec3>(part.lamps_lux));
+    bytes.value(part.lit);
+    bytes.value(part.unlit);
+  }
+}
+
+/// entities: proxies or probes, of which all or none have parts. layers: of their images.
+std::vector<CapturedParts> read_parts(ByteReader& bytes, std::size_t entities, std::uint32_t layers) {
+  std::vector<CapturedParts> parts(bytes.count(24));
+  bytes.require(parts.empty() || parts.size() == entities);
+  for (CapturedParts& part : parts) {
+    part.emission = bytes.value<std::int32_t>();
+    bytes.require(part.emission >= -1 && part.emission < static_cast<std::int64_t>(layers));
+    part.surface_m = bytes.value<float>();
+    part.surfaces = bytes.items<CapturedSurface>(bytes.count(sizeof(CapturedSurface)));
+    part.lamps_lux = bytes.items<vec3>(bytes.count(12));
+    part.lit = bytes.value<float>();
+    part.unlit = bytes.value<float>();
+  }
+  return parts;
+}
+
+void write_light(ByteWriter& bytes, const CapturedLightState& light) {
+  for (int channel = 0; channel < 3; ++channel) bytes.value(light.emitted[channel]);
+  bytes.value(static_cast<std::uint32_t>(light.kind));
+  for (const float value : {light.range_m, light.cone.x, light.cone.y}) bytes.value(value);
+  for (const dvec3* vector : {&light.position, &light.direction})
+    for (int axis = 0; axis < 3; ++axis) bytes.value((*vector)[axis]);
+}
+
+CapturedLightState read_light(ByteReader& bytes) {
+  CapturedLightState light;
+  for (int channel = 0; channel < 3; ++channel) light.emitted[channel] = bytes.value<float>();
+  const auto kind = bytes.value<std::uint32_t>();
+  bytes.require(kind <= static_cast<std::uint32_t>(LightKind::directional));
+  light.kind = bytes.ok() ? static_cast<LightKind>(kind) : LightKind::point;
+  for (float* value : {&light.range_m, &light.cone.x, &light.cone.y}) *value = bytes.value<float>();
+  for (dvec3* vector : {&light.position, &light.direction})
+    for (int axis = 0; axis < 3; ++axis) (*vector)[axis] = bytes.value<double>();
+  return light;
+}
+
+/// Entities by their positions in `of`; at most one for each layer.
+std::vector<Entity> read_entities(ByteReader& bytes, const std::vector<Entity>& of, std::uint32_t layers) {
+  const std::uint32_t count = bytes.count(4);
+  bytes.require(count <= layers);
+  std::vector<Entity> entities;
+  for (std::uint32_t i = 0; i < count && bytes.ok(); ++i) entities.push_back(read_entity(bytes, of));
+  return entities;
+}
+
 std::string identity_of(std::uint64_t content) {
   char text[48];
-  std::snprintf(text, sizeof(text), "reflection captures 2 %016llx", static_cast<unsigned long long>(content));
+  std::snprintf(text, sizeof(text), "reflection captures 3 %016llx", static_cast<unsigned long long>(content));
   return text;
 }
 
@@ -76,9 +135,13 @@ std::string encode_captures(const World& world, const ReflectionCaptures& captur
   bytes.value(captures.content);
   bytes.value(captures.light_scale);
   write_layers(bytes, captures.proxies);
+  bytes.value(static_cast<std::uint32_t>(captures.proxy_entities.size()));
   for (const Entity proxy : captures.proxy_entities) bytes.value(position_of(proxies, proxy));
+  write_parts(bytes, captures.proxy_parts);
   write_layers(bytes, captures.probes);
+  bytes.value(static_cast<std::uint32_t>(captures.probe_entities.size()));
   for (const Entity probe : captures.probe_entities) bytes.value(position_of(probes, probe));
+  write_parts(bytes, captures.probe_parts);
   bytes.value(static_cast<std::uint32_t>(captures.proxy_lights.size()));
   for (const CapturedProxyLight& light : captures.proxy_lights) {
     bytes.value(light.layer);
@@ -88,7 +151,7 @@ std::string encode_captures(const World& world, const ReflectionCaptures& captur
   bytes.value(static_cast<std::uint32_t>(captures.lights.size()));
   for (const CapturedLightState& light : captures.lights) {
     bytes.value(position_of(lights, light.light));
-    for (int channel = 0; channel < 3; ++channel) bytes.value(light.emitted[channel]);
+    write_light(bytes, light);
   }
   return bytes.take();
 }
@@ -102,24 +165,24 @@ std::optional<ReflectionCaptures> decode_captures(const World& world, std::strin
   captures.light_scale = bytes.value<float>();
   bytes.require(std::isnormal(captures.light_scale) && captures.light_scale > 0.0f);
   captures.proxies = read_layers(bytes);
-  for (std::uint32_t i = 0; i < captures.proxies.count; ++i)
-    captures.proxy_entities.push_back(read_entity(bytes, proxies));
+  captures.proxy_entities = read_entities(bytes, proxies, captures.proxies.count);
+  captures.proxy_parts = read_parts(bytes, captures.proxy_entities.size(), captures.proxies.count);
   captures.probes = read_layers(bytes);
-  for (std::uint32_t i = 0; i < captures.probes.count; ++i)
-    captures.probe_entities.push_back(read_entity(bytes, probes));
+  captures.probe_entities = read_entities(bytes, probes, captures.probes.count);
+  captures.probe_parts = read_parts(bytes, captures.probe_entities.size(), captures.probes.count);
   const std::uint32_t proxy_lights = bytes.count(12);
   for (std::uint32_t i = 0; i < proxy_lights && bytes.ok(); ++i) {
     CapturedProxyLight& light = captures.proxy_lights.emplace_back();
     light.layer = bytes.value<std::uint32_t>();
     light.light = read_entity(bytes, lights);
     light.weight = bytes.value<float>();
-    bytes.require(light.layer < captures.proxies.count);
+    bytes.require(light.layer < captures.proxy_entities.size());
   }
-  const std::uint32_t states = bytes.count(16);
+  const std::uint32_t states = bytes.count(80);
   for (std::uint32_t i = 0; i < states && bytes.ok(); ++i) {
-    CapturedLightState& light = captures.lights.emplace_back();
-    light.light = read_entity(bytes, lights);
-    for (int channel = 0; channel < 3; ++channel) light.emitted[channel] = bytes.value<float>();
+    const Entity light = read_entity(bytes, lights);
+    captures.lights.push_back(read_light(bytes));
+    captures.lights.back().light = light;
   }
   if (!bytes.at_end()) return std::nullopt;
   return captures;

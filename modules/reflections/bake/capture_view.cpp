@@ -15,4 +15,8 @@ ViewSettings capture_view(std::uint32_t index) {
   return settings;
 }
 
+void leave_lights_out(ViewSettings& settings) {
+  for (const char* module : {"lights", "shadows", "closeups"}) settings.without.emplace_back(module);
+}
+
 }  // namespace gloam

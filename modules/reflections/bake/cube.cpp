@@ -5,14 +5,19 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
+#include "engine/render/readback/geometry_picture.h"
 #include "modules/reflections/bake/capture_view.h"
+#include "modules/reflections/bake/probe_map.h"
+#include "modules/reflections/relighting/light_states.h"
 #include "modules/reflections/scene_unit.h"
 
 namespace gloam {
 namespace {
 
-constexpr double kProbeNear = 0.05;  // scene_unit()s
+constexpr double kProbeNear = 0.05;         // scene_unit()s
+constexpr std::uint32_t kSurfaceSide = 32;  // pixels of the faces in which surfaces are looked up
 
 /// A point of a cube: a face and the position on it, −1…1 to the right and up.
 struct CubePoint {
@@ -136,8 +141,9 @@ vec3 CapturedCube::sample(const vec3& direction, float lod) const {
   return glm::mix(light, sample(levels_[fine + 1], point.face, point.position), share);
 }
 
-Result<std::array<CapturedPicture, 6>> draw_cube_faces(Renderer& renderer, World& world, const dvec3& eye,
-                                                       std::uint32_t side, float light_scale) {
+namespace {
+
+std::array<ViewRequest, 6> face_views(const dvec3& eye, std::uint32_t side, double unit_m) {
   std::array<ViewRequest, 6> requests;
   static_assert(kBakeViews == std::tuple_size_v<decltype(requests)>);
   for (std::uint32_t face = 0; face < requests.size(); ++face) {
@@ -146,10 +152,20 @@ Result<std::array<CapturedPicture, 6>> draw_cube_faces(Renderer& renderer, World
     settings = capture_view(face);
     settings.width = settings.height = side;
     settings.camera.fov_y = std::numbers::pi_v<float> / 2.0f;
-    settings.camera.near_m = static_cast<float>(kProbeNear * scene_unit(world));
+    settings.camera.near_m = static_cast<float>(kProbeNear * unit_m);
     settings.world_from_camera =
         dmat4(dvec4(axes.right, 0.0), dvec4(axes.up, 0.0), dvec4(-axes.forward, 0.0), dvec4(eye, 1.0));
   }
+  return requests;
+}
+
+}  // namespace
+
+Result<std::array<CapturedPicture, 6>> draw_cube_faces(Renderer& renderer, World& world, const dvec3& eye,
+                                                       std::uint32_t side, float light_scale, CapturedLamps lamps) {
+  std::array<ViewRequest, 6> requests = face_views(eye, side, scene_unit(world));
+  if (lamps == CapturedLamps::left_out)
+    for (ViewRequest& request : requests) leave_lights_out(request.settings);
   GLOAM_TRY(renderer.render(world, requests));
   std::array<CapturedPicture, 6> faces;
   for (std::uint32_t face = 0; face < faces.size(); ++face) {
@@ -163,6 +179,38 @@ Result<std::array<CapturedPicture, 6>> draw_cube_faces(Renderer& renderer, World
                                   1.0f);
   }
   return faces;
+}
+
+Result<std::vector<CapturedSurface>> probe_surfaces(Renderer& renderer, World& world, const dvec3& eye) {
+  std::array<ViewRequest, 6> requests = face_views(eye, kSurfaceSide, scene_unit(world));
+  for (ViewRequest& request : requests)
+    for (const auto& module : renderer.modules()) request.settings.without.emplace_back(module->name());
+  GLOAM_TRY(renderer.render(world, requests));
+  std::vector<GeometryPicture> faces;
+  for (const ViewRequest& request : requests) {
+    auto face = renderer.read_geometry(world, request.settings.id);
+    if (!face.ok()) return face.error();
+    faces.push_back(std::move(face).value());
+  }
+  std::vector<CapturedSurface> surfaces;
+  for (std::uint32_t y = 0; y < kProbeCells; ++y)
+    for (std::uint32_t x = 0; x < kProbeCells; ++x) {
+      const vec2 uv = (vec2(static_cast<float>(x), static_cast<float>(y)) + 0.5f) / static_cast<float>(kProbeCells);
+      const CubePoint point = cube_point(probe_map_direction(uv));
+      const auto pixel = [](float position) {
+        const float at = (position * 0.5f + 0.5f) * static_cast<float>(kSurfaceSide);
+        return static_cast<std::uint32_t>(std::clamp(at, 0.0f, static_cast<float>(kSurfaceSide) - 1.0f));
+      };
+      const std::uint32_t px = pixel(point.position.x), py = pixel(-point.position.y);
+      const GeometryPicture& face = faces[point.face];
+      const std::size_t at = std::size_t{py} * kSurfaceSide + px;
+      CapturedSurface& surface = surfaces.emplace_back();
+      if (face.is_sky(at)) continue;
+      surface.position = vec3(face.position(px, py));
+      surface.normal = face.texel(at).face_normal;
+      if (glm::dot(surface.normal, surface.position) > 0.0f) surface.normal = -surface.normal;
+    }
+  return surfaces;
 }
 
 }  // namespace gloam

@@ -12,6 +12,7 @@
 #include "engine/math/types.h"
 #include "engine/render/renderer.h"
 #include "modules/reflections/bake/picture.h"
+#include "modules/reflections/captures.h"
 
 namespace gloam {
 
@@ -52,8 +53,14 @@ class CapturedCube {
   std::vector<Level> levels_;
 };
 
+enum class CapturedLamps : std::uint8_t { on, left_out };
+
 /// Draws the static scene around `eye`. side: pixels of a face's sides, a power of two. light_scale: of the captures.
 [[nodiscard]] Result<std::array<CapturedPicture, 6>> draw_cube_faces(Renderer& renderer, World& world, const dvec3& eye,
-                                                                     std::uint32_t side, float light_scale);
+                                                                     std::uint32_t side, float light_scale,
+                                                                     CapturedLamps lamps);
+
+/// The surfaces of the static scene around `eye`: CapturedParts::surfaces.
+[[nodiscard]] Result<std::vector<CapturedSurface>> probe_surfaces(Renderer& renderer, World& world, const dvec3& eye);
 
 }  // namespace gloam

@@ -32,6 +32,33 @@ void turn_upside_down(CapturedPicture& picture) {
   }
 }
 
+/// The light where a surface was met, at the proxy's size.
+CapturedPicture covered_picture(const PlacedProxy& proxy, const LinearPicture& light, const std::vector<float>& depth,
+                                std::uint32_t side, float light_scale) {
+  CapturedPicture picture{light.width, light.height, {}};
+  picture.texels.resize(std::size_t{picture.width} * picture.height, vec4(0.0f));
+  for (std::size_t i = 0; i < picture.texels.size(); ++i) {
+    if (!(depth[i] > 0.0f)) continue;
+    const float* const rgba = &light.rgba[4 * i];
+    picture.texels[i] = vec4(storable(light_scale * vec3(rgba[0], rgba[1], rgba[2])), 1.0f);
+  }
+  if (is_upside_down(proxy)) turn_upside_down(picture);
+  return resampled(picture, side);
+}
+
+/// CapturedParts::surface_m; 0 if no surface was met.
+float mean_surface(const PlacedProxy& proxy, const ViewSettings& settings, const std::vector<float>& depth) {
+  const RenderView view = make_view(settings, 0);
+  const double before = glm::dot(proxy.normal, dvec3(settings.world_from_camera[3]) - proxy.center);
+  double sum = 0.0, count = 0.0;
+  for (const float value : depth) {
+    if (!(value > 0.0f)) continue;
+    sum += before - static_cast<double>(view.view_depth(value));
+    count += 1.0;
+  }
+  return count > 0.0 ? static_cast<float>(sum / count) : 0.0f;
+}
+
 }  // namespace
 
 ViewSettings proxy_view(const PlacedProxy& proxy, std::uint32_t side, double unit_m) {
@@ -53,31 +80,30 @@ ViewSettings proxy_view(const PlacedProxy& proxy, std::uint32_t side, double uni
   return settings;
 }
 
-Result<CapturedPicture> capture_proxy(Renderer& renderer, World& world, const PlacedProxy& proxy, std::uint32_t side,
-                                      float light_scale) {
-  // read_image() draws a view again, so depth is read from a view without light.
-  std::array<ViewRequest, 2> requests;
-  ViewSettings &lit = requests[0].settings, &unlit = requests[1].settings;
-  lit = unlit = proxy_view(proxy, kPixelsATexel * side, scene_unit(world));
+Result<ProxyCapture> capture_proxy(Renderer& renderer, World& world, const PlacedProxy& proxy, std::uint32_t side,
+                                   float light_scale) {
+  // read_image() draws a view again, so depth is read from a view without shading.
+  std::array<ViewRequest, 3> requests;
+  ViewSettings &all = requests[0].settings, &unlit = requests[1].settings, &depths = requests[2].settings;
+  all = unlit = depths = proxy_view(proxy, kPixelsATexel * side, scene_unit(world));
   unlit.id = capture_view(1).id;
-  for (const auto& module : renderer.modules()) unlit.without.emplace_back(module->name());
+  leave_lights_out(unlit);
+  depths.id = capture_view(2).id;
+  for (const auto& module : renderer.modules()) depths.without.emplace_back(module->name());
   GLOAM_TRY(renderer.render(world, requests));
-  const auto light = renderer.read_linear(lit.id);
+  const auto light = renderer.read_linear(all.id), unlit_light = renderer.read_linear(unlit.id);
   if (!light.ok()) return light.error();
-  const auto depth = renderer.read_image(world, unlit.id, "depth");
+  if (!unlit_light.ok()) return unlit_light.error();
+  const auto depth = renderer.read_image(world, depths.id, "depth");
   if (!depth.ok()) return depth.error();
+  std::vector<float> device_depth(depth->bytes.size() / sizeof(float));
+  std::memcpy(device_depth.data(), depth->bytes.data(), device_depth.size() * sizeof(float));
 
-  CapturedPicture picture{light->width, light->height, {}};
-  picture.texels.resize(std::size_t{picture.width} * picture.height, vec4(0.0f));
-  for (std::size_t i = 0; i < picture.texels.size(); ++i) {
-    float pixel_depth = 0.0f;
-    std::memcpy(&pixel_depth, depth->bytes.data() + i * sizeof(float), sizeof(float));
-    if (!(pixel_depth > 0.0f)) continue;
-    const float* const rgba = &light->rgba[4 * i];
-    picture.texels[i] = vec4(storable(light_scale * vec3(rgba[0], rgba[1], rgba[2])), 1.0f);
-  }
-  if (is_upside_down(proxy)) turn_upside_down(picture);
-  return resampled(picture, side);
+  ProxyCapture capture;
+  capture.surface_m = mean_surface(proxy, all, device_depth);
+  capture.all = covered_picture(proxy, *light, device_depth, side, light_scale);
+  capture.unlit = covered_picture(proxy, *unlit_light, device_depth, side, light_scale);
+  return capture;
 }
 
 }  // namespace gloam

@@ -18,9 +18,16 @@ namespace gloam {
 /// shows the rectangle along half_u.
 [[nodiscard]] ViewSettings proxy_view(const PlacedProxy& proxy, std::uint32_t side, double unit_m = 1.0);
 
-/// Draws the static scene as proxy_view() sees it and returns it with `side` texels, alpha 0 where no opaque surface
-/// was met. u runs along half_u, v against half_v. light_scale: of the captures.
-[[nodiscard]] Result<CapturedPicture> capture_proxy(Renderer& renderer, World& world, const PlacedProxy& proxy,
-                                                    std::uint32_t side, float light_scale);
+/// What a proxy shows, with `side` × `side` texels, alpha 0 where no opaque surface was met. u runs along half_u, v
+/// against half_v.
+struct ProxyCapture {
+  CapturedPicture all;
+  CapturedPicture unlit;   ///< the part of it that no lamp causes; equally covered
+  float surface_m = 0.0f;  ///< CapturedParts::surface_m
+};
+
+/// Draws the static scene as proxy_view() sees it. light_scale: of the captures.
+[[nodiscard]] Result<ProxyCapture> capture_proxy(Renderer& renderer, World& world, const PlacedProxy& proxy,
+                                                 std::uint32_t side, float light_scale);
 
 }  // namespace gloam

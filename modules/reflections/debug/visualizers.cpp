@@ -11,6 +11,7 @@
 #include "modules/lighting/outputs.h"
 #include "modules/reflections/bindings.h"
 #include "modules/reflections/culling/tiles.h"
+#include "modules/reflections/frame.h"
 #include "modules/reflections/knobs.h"
 #include "shaders/reflections/shaders.h"
 

@@ -27,8 +27,8 @@ MirroredLight add_proxy_pass(FrameBuilder& frame, const ReflectionKnobs& knobs, 
   pass.read("ssr_distance", hits.distance);
   bind_rows(pass, "proxy_rows", proxies.rows);
   bind_rows(pass, "proxy_masks", proxies.masks);
+  bind_rows(pass, "capture_factors", proxies.factors);
   pass.read("proxy_images", proxies.images, Sampling::linear);
-  read_changed_lights(pass, frame, proxies.changed);
   const std::uint32_t scale = uniforms.constants.scale;
   MirroredLight light;
   light.color =

@@ -12,7 +12,6 @@
 #include "modules/reflections/culling/placed.h"
 
 namespace gloam {
-
 namespace {
 
 /// Mean of the texels of the last mip, which is prefiltered for roughness 1, about the middle of a probe's map (up) or
@@ -31,10 +30,38 @@ vec4 mean_about(const CapturedLayers& probes, std::size_t layer, bool up) {
   return sum;
 }
 
+/// Mean of a probe's factors over the upper or the lower half of its directions: inside or outside the square that
+/// joins the middles of the map's sides.
+vec4 mean_factor(std::span<const vec4> cells, bool up) {
+  constexpr int kSide = GLOAM_PROBE_CELLS;
+  vec4 sum(0.0f);
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x < kSide; ++x) {
+      const int away = std::abs(2 * x + 1 - kSide) + std::abs(2 * y + 1 - kSide);
+      if ((away <= kSide) == up) sum += vec4(vec3(cells[static_cast<std::size_t>(y * kSide + x)]), 1.0f);
+    }
+  return sum / sum.w;
+}
+
+void set_means(const CapturedLayers& probes, std::size_t layer, std::span<const vec4> cells, shaders::ProbeRow& row) {
+  for (const bool up : {true, false}) {
+    vec4 mean = mean_about(probes, layer, up);
+    if (row.factor >= 0.0f) {
+      const auto first = static_cast<std::size_t>(row.factor);
+      const vec4 unscaled =
+          row.emission >= 0.0f ? mean_about(probes, static_cast<std::size_t>(row.emission), up) : vec4(0.0f);
+      const vec4 factor = mean_factor(cells.subspan(first, GLOAM_PROBE_CELLS * GLOAM_PROBE_CELLS), up);
+      mean = unscaled + factor * glm::max(mean - unscaled, vec4(0.0f));
+    }
+    (up ? row.above : row.below) = mean;
+  }
+}
+
 }  // namespace
 
 std::vector<shaders::ProbeRow> probe_rows(const World& world, const RenderView& view,
-                                          const ReflectionCaptures& captures) {
+                                          const ReflectionCaptures& captures, std::span<const CaptureFactor> factors,
+                                          std::span<const vec4> cells) {
   struct Ordered {
     double volume = 0.0;
     shaders::ProbeRow row{};
@@ -48,9 +75,10 @@ std::vector<shaders::ProbeRow> probe_rows(const World& world, const RenderView& 
     Ordered next;
     next.row.layer = static_cast<float>(i);
     next.row.fade = kProbeFade;
-    next.row.above = mean_about(captures.probes, i, true);
-    next.row.below = mean_about(captures.probes, i, false);
     next.row.center = view.relative(dvec3(transform->matrix[3]));
+    next.row.factor = i < factors.size() ? static_cast<float>(factors[i].first) : -1.0f;
+    next.row.emission = i < captures.probe_parts.size() ? static_cast<float>(captures.probe_parts[i].emission) : -1.0f;
+    set_means(captures.probes, i, cells, next.row);
     next.row.global = probe->global ? 1.0f : 0.0f;
     next.volume = std::numeric_limits<double>::infinity();
     if (!probe->global) {

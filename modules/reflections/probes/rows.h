@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "engine/ecs/world.h"
 #include "engine/render/view.h"
 #include "modules/reflections/captures.h"
+#include "modules/reflections/relighting/capture_factors.h"
 #include "shaders/reflections/reflections_shared.h"
 
 namespace gloam {
@@ -15,8 +17,11 @@ namespace gloam {
 inline constexpr float kProbeFade = 0.2f;
 
 /// Rows of all captured probes with a box of positive, finite size, from the smallest volume to the largest, then the
-/// global one. Probes of equal volume come in the order of their entities' indices.
+/// global one. Probes of equal volume come in the order of their entities' indices. factors: by layer of the captures,
+/// cells: CaptureFactors::cells(); empty: captured light is shown as captured.
 [[nodiscard]] std::vector<shaders::ProbeRow> probe_rows(const World& world, const RenderView& view,
-                                                        const ReflectionCaptures& captures);
+                                                        const ReflectionCaptures& captures,
+                                                        std::span<const CaptureFactor> factors = {},
+                                                        std::span<const vec4> cells = {});
 
 }  // namespace gloam

@@ -67,6 +67,30 @@ shaders::ProxyRow placed_row(const PlacedProxy& proxy, const RenderView& view, s
   return row;
 }
 
+/// Appends equal factors for all cells of a proxy; returns the first.
+float own_factor(float dim, std::vector<vec4>& cells) {
+  const auto first = static_cast<float>(cells.size());
+  cells.insert(cells.end(), std::size_t{kProxyCells} * kProxyCells, vec4(vec3(dim), 1.0f));
+  return first;
+}
+
+void set_light(shaders::ProxyRow& row, const World& world, const ReflectionCaptures& captures,
+               std::span<const CaptureFactor> factors, std::uint32_t layer, std::vector<vec4>& cells) {
+  const IbrProxy* proxy = world.try_get<IbrProxy>(captures.proxy_entities[layer]);
+  row.layer = static_cast<float>(layer);
+  row.emission = -1.0f;
+  row.opacity = 1.0f;
+  row.factor = -1.0f;
+  if (proxy != nullptr && own_light(*proxy)) {
+    const float dim = proxy_dim(world, captures, layer);
+    row.opacity = std::min(dim, 1.0f);
+    if (dim != 1.0f) row.factor = own_factor(dim, cells);
+    return;
+  }
+  if (layer < factors.size()) row.factor = static_cast<float>(factors[layer].first);
+  if (layer < captures.proxy_parts.size()) row.emission = static_cast<float>(captures.proxy_parts[layer].emission);
+}
+
 }  // namespace
 
 float proxy_dim(const World& world, const ReflectionCaptures& captures, std::uint32_t layer) {
@@ -85,7 +109,8 @@ float proxy_dim(const World& world, const ReflectionCaptures& captures, std::uin
 }
 
 std::vector<shaders::ProxyRow> proxy_rows(const World& world, const RenderView& view, const ProxySet& set,
-                                          const ProxyTiles& tiles, const ReflectionCaptures& captures, bool all) {
+                                          const ProxyTiles& tiles, const ReflectionCaptures& captures,
+                                          std::span<const CaptureFactor> factors, bool all, std::vector<vec4>& cells) {
   std::vector<shaders::ProxyRow> rows;
   const std::size_t count = all ? set.proxies.size() : tiles.proxies.size();
   rows.reserve(count);
@@ -95,42 +120,10 @@ std::vector<shaders::ProxyRow> proxy_rows(const World& world, const RenderView& 
     const ReceiverBands bands = receiver_bands(proxy, set.rooms, tiles.rooms, view.position);
     set_heights(row, bands, view.position.y);
     row.room = bands.count > 0 ? 1 : 0;
-    const IbrProxy* component = world.try_get<IbrProxy>(proxy.entity);
-    row.scaled = component != nullptr && component->kind == IbrProxyKind::fire ? 0.0f : 1.0f;
-    if (const auto layer = layer_of(captures, proxy.entity)) {
-      row.layer = static_cast<float>(*layer);
-      row.dim = proxy_dim(world, captures, *layer);
-    }
+    if (const auto layer = layer_of(captures, proxy.entity)) set_light(row, world, captures, factors, *layer, cells);
     rows.push_back(row);
   }
   return rows;
-}
-
-std::vector<shaders::ChangedLight> changed_lights(const World& world, const RenderView& view,
-                                                  const ReflectionCaptures& captures) {
-  std::vector<shaders::ChangedLight> changed;
-  for (const CapturedLightState& state : captures.lights) {
-    const Light* light = world.try_get<Light>(state.light);
-    const auto* transform = world.try_get<WorldTransform>(state.light);
-    if (light == nullptr || transform == nullptr) continue;
-    const vec3 missing = state.emitted - emitted_now(world, state.light);
-    if (missing == vec3(0.0f)) continue;
-    Light as_captured = *light;
-    as_captured.color = vec3(1.0f);
-    as_captured.intensity = std::max({state.emitted.x, state.emitted.y, state.emitted.z, light->intensity});
-    const vec2 ramp = light->kind == LightKind::spot ? spot_ramp(*light) : vec2(0.0f, 1.0f);
-    const float range = effective_range(as_captured);
-    shaders::ChangedLight row{};
-    row.position = view.relative(dvec3(transform->matrix[3]));
-    row.inverse_range_squared = 1.0f / (range * range);
-    row.missing = missing * view.light_scale;
-    row.direction = light_direction(dvec3(transform->matrix[2]));
-    row.spot_scale = ramp.x;
-    row.spot_offset = ramp.y;
-    row.directional = light->kind == LightKind::directional ? 1.0f : 0.0f;
-    changed.push_back(row);
-  }
-  return changed;
 }
 
 }  // namespace gloam

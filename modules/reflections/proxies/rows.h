@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/ecs/world.h"
@@ -9,22 +11,22 @@
 #include "modules/reflections/captures.h"
 #include "modules/reflections/culling/placed.h"
 #include "modules/reflections/culling/tiles.h"
+#include "modules/reflections/relighting/capture_factors.h"
 #include "shaders/reflections/reflections_shared.h"
 
 namespace gloam {
 
 /// Rows of the proxies that a view may reflect, in the order of ProxyTiles::proxies; with `all`, rows of all proxies of
-/// the set, in its order. A proxy without a captured image has dim 0, which the shader never shows.
+/// the set, in its order. A proxy without a captured image has opacity 0, which the shader never shows. factors: by
+/// layer of the captures; empty: captured light is shown as captured, except that of fires. cells:
+/// CaptureFactors::cells(), to which the factors of fires are appended.
 [[nodiscard]] std::vector<shaders::ProxyRow> proxy_rows(const World& world, const RenderView& view, const ProxySet& set,
                                                         const ProxyTiles& tiles, const ReflectionCaptures& captures,
-                                                        bool all);
+                                                        std::span<const CaptureFactor> factors, bool all,
+                                                        std::vector<vec4>& cells);
 
-/// Factor of a proxy's captured colour: its own lights now, as a share of what they were. 1 if it has none.
+/// Factor of the captured colour of a proxy that shows a light of its own (own_light): its lights now, as a share of
+/// what they were. 1 if it has none.
 [[nodiscard]] float proxy_dim(const World& world, const ReflectionCaptures& captures, std::uint32_t layer);
-
-/// The lights that differ from their state at capture, with what is missing of them. Lights that no longer exist are
-/// left out: their place is not known.
-[[nodiscard]] std::vector<shaders::ChangedLight> changed_lights(const World& world, const RenderView& view,
-                                                                const ReflectionCaptures& captures);
 
 }  // namespace gloam

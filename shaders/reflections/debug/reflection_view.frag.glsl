@@ -34,6 +34,7 @@ layout(push_constant, scalar) uniform Push { uint tiers; };  // bit 0: screen sp
 layout(location = 0) out vec4 out_picture;
 layout(location = 1) out vec4 out_named;  // values in rgb; a must be 1 with them, because targets are alpha-blended
 
+#define GLOAM_CAPTURE_FACTOR(i) vec3(1.0)  // only shares of probes are shown
 #include "shaders/lighting/probes_api.glsl"
 #include "shaders/reflections/mirror_surface_api.glsl"
 #include "shaders/reflections/proxies/proxies_api.glsl"
@@ -50,7 +51,7 @@ uint count_proxies(ivec2 texel, MirrorSurface s, bool met_only) {
   for (uint word = 0u; word < tiles.words; ++word)
     for (uint bits = tile_word(tile, word); bits != 0u; bits &= bits - 1u) {
       ProxyRow proxy = proxy_rows[word * 32u + uint(findLSB(bits))];
-      bool met = meet_proxy(proxy, s.position, s.direction).met && proxy.dim > 0.0;
+      bool met = meet_proxy(proxy, s.position, s.direction).met && proxy.opacity > 0.0;
       count += met || !met_only ? 1u : 0u;
     }
   return count;

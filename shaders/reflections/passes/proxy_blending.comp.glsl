@@ -24,15 +24,14 @@ layout(set = 0, binding = 6) uniform sampler2D ssr_distance;
 layout(set = 0, binding = 7, scalar) readonly buffer ProxyRows { ProxyRow proxy_rows[]; };
 layout(set = 0, binding = 8, scalar) readonly buffer ProxyMasks { uint proxy_masks[]; };
 layout(set = 0, binding = 9) uniform sampler2DArray proxy_images;
-layout(set = 0, binding = 10) uniform sampler2D diffuse_light;
-layout(set = 0, binding = 11, scalar) readonly buffer ChangedLights { ChangedLight changed_lights[]; };
+layout(set = 0, binding = 10, scalar) readonly buffer CaptureFactors { vec4 capture_factors[]; };
 layout(set = 0, binding = 12, scalar) uniform Tiles { ProxyTileConstants tiles; };
 layout(set = 0, binding = 13, rgba16f) uniform writeonly image2D color_image;  // premultiplied radiance, confidence
 layout(set = 0, binding = 14, rgba8) uniform writeonly image2D surface_image;  // spread, roughness, packed distance
 
 #define GLOAM_MIRROR_TILES 3
 #include "shaders/reflections/mirror_surface_api.glsl"
-#include "shaders/reflections/proxies/changed_light_api.glsl"
+#include "shaders/lighting/changed_light_api.glsl"
 #include "shaders/reflections/proxies/proxies_api.glsl"
 #include "shaders/reflections/spread_api.glsl"
 
@@ -58,33 +57,35 @@ void insert(Layer layer) {
 }
 
 // The proxy's image where the ray meets it. The mip follows the distance of the mirrored picture.
-vec4 proxy_light(ProxyRow proxy, ProxyHit hit, MirrorSurface s, float ratio) {
+vec4 proxy_light(ProxyRow proxy, ProxyHit hit, MirrorSurface s) {
   float away = view.orthographic != 0u ? 1.0 : length(s.position) + hit.distance_m;
   float lod = log2(max(length(view.ray_dx.xyz) * float(reflection.scale) * away / proxy.texel_m, 1.0));
   vec4 light = textureLod(proxy_images, vec3(hit.uv, proxy.layer), lod);
-  return vec4(light.rgb * (reflection.capture_scale * proxy.dim * mix(1.0, ratio, proxy.scaled)),
-              light.a * min(proxy.dim, 1.0));
+  if (proxy.factor >= 0.0) {
+    vec3 unscaled = vec3(0.0);
+    if (proxy.emission >= 0.0) unscaled = textureLod(proxy_images, vec3(hit.uv, proxy.emission), lod).rgb;
+    light.rgb = followed_light(light.rgb, unscaled, captured_factor(proxy.factor, GLOAM_PROXY_CELLS, hit.uv));
+  }
+  return vec4(light.rgb * reflection.capture_scale, light.a * proxy.opacity);
 }
 
-void try_proxy(uint index, MirrorSurface s, float ratio) {
+void try_proxy(uint index, MirrorSurface s) {
   ProxyRow proxy = proxy_rows[index];
   if (kNaive != 0u && proxy.room == 0u) return;
   if (kSphereTest != 0u && !meets_sphere(proxy, s.position, s.direction)) return;
   ProxyHit hit = meet_proxy(proxy, s.position, s.direction);
-  if (hit.met && proxy.dim > 0.0) {
-    insert(Layer(hit.distance_m, hit.distance_m, proxy_light(proxy, hit, s, ratio)));
-  }
+  if (hit.met && proxy.opacity > 0.0) insert(Layer(hit.distance_m, hit.distance_m, proxy_light(proxy, hit, s)));
 }
 
-void add_proxies(MirrorSurface s, int column, float ratio) {
+void add_proxies(MirrorSurface s, int column) {
   if (kNaive != 0u) {
-    for (uint i = 0u; i < tiles.proxies; ++i) try_proxy(i, s, ratio);
+    for (uint i = 0u; i < tiles.proxies; ++i) try_proxy(i, s);
     return;
   }
   uint tile = uint(column) * tiles.tiles / reflection.size.x;
   for (uint word = 0u; word < tiles.words; ++word)
     for (uint bits = proxy_masks[tile * tiles.words + word]; bits != 0u; bits &= bits - 1u)
-      try_proxy(word * 32u + uint(findLSB(bits)), s, ratio);
+      try_proxy(word * 32u + uint(findLSB(bits)), s);
 }
 
 void main() {
@@ -100,12 +101,7 @@ void main() {
       if (ssr.a > 0.0)
         insert(Layer(distance_m - kBehindScreen * reflection.unit_m, distance_m, vec4(ssr.rgb * ssr.a, ssr.a)));
     }
-    if (kProxies != 0u) {
-      float ratio = 1.0;
-      if (reflection.changed_lights != 0u)
-        ratio = diffuse_light_ratio(texelFetch(diffuse_light, s.pixel, 0).rgb, s.position, vec3(0.0, 1.0, 0.0));
-      add_proxies(s, texel.x, ratio);
-    }
+    if (kProxies != 0u) add_proxies(s, texel.x);
     float distance_m = 0.0;
     for (uint i = 0u; i < kLayers; ++i) {
       float part = 1.0 - color.a;

@@ -13,6 +13,7 @@
 #include "modules/accuracy/module.h"
 #include "modules/reflections/override.h"
 #include "modules/reflections/reference/reflection_tracing.h"
+#include "modules/reflections/relighting/light_states.h"
 #include "tests/modules/reflections/support/grazing_view.h"
 #include "tests/modules/reflections/support/reflection_frames.h"
 
@@ -269,7 +270,14 @@ TEST_F(ReflectionFrames, lights_as_captured_leave_the_picture_as_it_is) {
   lamp.range_m = 20.0f;
   const Entity entity = light(lamp, {1.0, 2.5, 2.0});
   capture(world, {vec4(0.5f)}, {vec4(0.25f)});
-  world.resource<ReflectionCaptures>().lights = {{entity, lamp.color * lamp.intensity}};
+  auto& captures = world.resource<ReflectionCaptures>();
+  captures.lights = light_states(world);
+  PlacedProxy placed;
+  ASSERT_EQ(place_proxy(captures.proxy_entities[0], world.get<IbrProxy>(captures.proxy_entities[0]), at(0.0, 1.0, -3.0),
+                        placed),
+            ProxyPlacement::placed);
+  captures.proxy_parts.resize(1);
+  captures.proxy_parts[0].lamps_lux = illuminances(captures.lights, proxy_patches(placed, 0.0f));
   const LinearPicture on = shot();
   set("reflections.light_scale", "off");
   EXPECT_EQ(shot().rgba, on.rgba);

@@ -17,6 +17,8 @@ layout(set = 0, binding = 1, scalar) readonly buffer ProbeRows { ProbeRow probe_
 layout(set = 0, binding = 2) uniform sampler2DArray probe_images;
 layout(set = 0, binding = 3, scalar) writeonly buffer Lights { vec4 lights[]; };  // radiance, covered share
 
+layout(set = 0, binding = 4, scalar) readonly buffer CaptureFactors { vec4 capture_factors[]; };
+
 layout(push_constant, scalar) uniform Push { uint probes; };
 
 #include "shaders/lighting/probes_api.glsl"

@@ -120,12 +120,19 @@ TEST_F(Bakes, a_proxy_shows_the_wall_behind_it_upright_and_alpha_0_beside_it) {
     wall(kWhite, place * at(0, 0, 1.5));    // too far in front
   }
   const ReflectionCaptures captures = bake();
-  ASSERT_EQ(captures.proxies.count, 3u);
+  ASSERT_EQ(captures.proxy_entities.size(), 3u);
+  ASSERT_EQ(captures.proxy_parts.size(), 3u);
+  ASSERT_EQ(captures.proxies.count, 6u) << "each with a layer of its emission";
   EXPECT_EQ(captures.proxies.mips, 6u);
-  EXPECT_EQ(captures.proxies.texels.size(), 3 * captures.proxies.layer_halves());
+  EXPECT_EQ(captures.proxies.texels.size(), 6 * captures.proxies.layer_halves());
   for (std::uint32_t layer = 0; layer < 3; ++layer) {
     SCOPED_TRACE(layer);
     expect_quarters(captures.proxies, layer);
+    EXPECT_EQ(captures.proxy_parts[layer].emission, static_cast<std::int32_t>(3 + layer));
+    expect_quarters(captures.proxies, 3 + layer);
+    EXPECT_EQ(captures.proxy_parts[layer].lit, 0.0f);
+    // A wall is half a unit behind, one 0.2 before; the second node is as deep as it is, the third is mirrored in x.
+    EXPECT_NEAR(captures.proxy_parts[layer].surface_m, (-0.5f + 0.2f + 0.0f) / 3.0f, 0.02f);
   }
   EXPECT_TRUE(captures.proxy_lights.empty());
 }
@@ -241,6 +248,8 @@ TEST_F(Bakes, light_that_is_not_a_number_does_not_spread) {
 }
 
 TEST_F(Bakes, lights_that_reach_a_proxy_dim_it_and_light_its_capture) {
+  world.resource<SceneEnvironment>() = {
+      .sky_zenith = vec3(0.02f), .sky_horizon = vec3(0.02f), .sky_ground = vec3(0.02f)};
   proxy(vec2(2.0f, 2.0f), dmat4(1.0));
   Material plaster;
   plaster.metallic = 0.0f;
@@ -257,6 +266,13 @@ TEST_F(Bakes, lights_that_reach_a_proxy_dim_it_and_light_its_capture) {
   EXPECT_EQ(captures.lights.size(), 2u);
   const double expected = 100.0 / (4.2 * 4.2) / 3.14159265;  // a white diffuse wall, without its highlight
   EXPECT_NEAR(texel(captures.proxies, 0, 16, 16).x, expected, 0.15 * expected);
+  const CapturedParts& parts = captures.proxy_parts.at(0);
+  EXPECT_NEAR(parts.lamps_lux.at(5).x, 100.0 / (4.2 * 4.2), 0.1 * 100.0 / (4.2 * 4.2));
+  EXPECT_NEAR(parts.lit, expected, 0.15 * expected);
+  EXPECT_NEAR(parts.surface_m, -0.2f, 1e-3f);
+  ASSERT_EQ(parts.emission, 1) << "what the sky lights";
+  EXPECT_LT(texel(captures.proxies, 1, 16, 16).x, 0.1 * expected);
+  EXPECT_GT(texel(captures.proxies, 1, 16, 16).x, 0.0f);
 }
 
 TEST_F(Bakes, on_any_number_of_threads_are_equal_to_the_bit) {

@@ -387,7 +387,7 @@ TEST_F(ProxyBlend, a_proxy_without_light_takes_no_layer) {
   in.layers = 1;
   std::vector<shaders::ProxyRow> rows = world.rows(seen.view, false);
   ASSERT_EQ(rows.size(), 2u);
-  rows[0].dim = 0.0f;
+  rows[0].opacity = 0.0f;
   const Blended picture = blend(device(), in, rows, world.tiles(seen.view, {.columns = 32}), images);
   for (std::uint32_t i = 0; i < 32 * 24; ++i)
     if (seen.object[i] == 0 && seen.mirrored(i % 32, i / 32).y > 1e-3 && seen.position(i % 32, i / 32).z + 6.0 > 0.0) {

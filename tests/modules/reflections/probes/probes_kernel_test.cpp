@@ -71,17 +71,23 @@ class ProbesRadiance : public KernelTest {
     return probe_rows(world, view_from(dvec3(0.0), 0.0, 0.0), captures);
   }
   [[nodiscard]] std::vector<vec4> radiance(const std::vector<TestProbe>& probes, const FlatLayers& images,
-                                           std::vector<ProbeRay> rays) {
+                                           std::vector<ProbeRay> rays, const std::vector<vec4>& factors = {vec4(1.0f)},
+                                           std::int32_t emission = -1) {
     const std::size_t count = rays.size();
     rays.resize((count + 63) / 64 * 64);
     std::vector<shaders::ProbeRow> made = rows(probes);
     const auto used = static_cast<std::uint32_t>(made.size());
     if (made.empty()) made.resize(1);
+    for (shaders::ProbeRow& row : made) {
+      row.emission = static_cast<float>(emission);
+      if (factors.size() > 1) row.factor = 0.0f;
+    }
     Kernel kernel(device(), shaders::reflections_test::probes_comp);
     kernel.input(0, rays);
     kernel.input(1, made);
     kernel.sampled_image(2, images.image(), gpu::Filter::linear);
     kernel.output(3, rays.size() * sizeof(vec4));
+    kernel.input(4, factors);
     kernel.push(used);
     kernel.run(static_cast<std::uint32_t>(rays.size() / 64));
     std::vector<vec4> lights = kernel.read<vec4>(3);
@@ -118,6 +124,26 @@ TEST_F(ProbesRadiance, each_direction_shows_its_texel) {
     ASSERT_NEAR(lights[i].x, static_cast<float>(i % 32), 0.02) << i;
     ASSERT_NEAR(lights[i].y, static_cast<float>(i / 32), 0.02) << i;
     ASSERT_EQ(lights[i].w, 1.0f);
+  }
+}
+
+TEST_F(ProbesRadiance, factors_scale_the_light_of_lamps_in_the_cells_of_the_map) {
+  constexpr std::uint32_t kCells = GLOAM_PROBE_CELLS;
+  std::vector<vec4> factors;
+  std::vector<ProbeRay> rays;
+  for (std::uint32_t y = 0; y < kCells; ++y)
+    for (std::uint32_t x = 0; x < kCells; ++x) {
+      factors.emplace_back(static_cast<float>(x), static_cast<float>(y), 0.5f, 1.0f);
+      rays.push_back({vec3(0.0f), 0.0f, direction_of(x, y, kCells)});
+    }
+  const FlatLayers images(device(), 8, 2, std::vector<vec4>{vec4(3.0f, 2.0f, 1.0f, 1.0f), vec4(1.0f)});
+  for (const std::int32_t emission : {-1, 1}) {
+    const std::vector<vec4> lights = radiance({global()}, images, rays, factors, emission);
+    for (std::size_t i = 0; i < lights.size(); ++i)
+      for (int c = 0; c < 3; ++c) {
+        const float kept = emission < 0 ? 0.0f : 1.0f, all = 3.0f - static_cast<float>(c);
+        ASSERT_NEAR(lights[i][c], kept + factors[i][c] * (all - kept), 0.05f) << i << ", " << c;
+      }
   }
 }
 

@@ -20,10 +20,10 @@ struct BlendInput {
   std::uint32_t layers = 4;
   bool sphere_test = true;
   bool naive = false;
-  std::vector<vec4> ssr_color;        ///< by texel: radiance, confidence
-  std::vector<float> ssr_distance_m;  ///< by texel
-  std::vector<vec4> diffuse_light;    ///< by pixel: lux
-  std::vector<shaders::ChangedLight> changed;
+  std::vector<vec4> ssr_color;         ///< by texel: radiance, confidence
+  std::vector<float> ssr_distance_m;   ///< by texel
+  std::vector<CaptureFactor> factors;  ///< by layer
+  std::vector<vec4> cells;             ///< CaptureFactors::cells()
 };
 
 /// Its outputs, by texel.
@@ -40,15 +40,14 @@ struct Blended {
           .constants = reflection_constants(seen.view, scale),
           .ssr_color = {},
           .ssr_distance_m = {},
-          .diffuse_light = {},
-          .changed = {}};
+          .factors = {},
+          .cells = {}};
 }
 
 /// Runs the kernel with rows and masks. colors: premultiplied image of each layer.
 [[nodiscard]] inline Blended blend(gpu::Device& device, const BlendInput& in, std::vector<shaders::ProxyRow> rows,
                                    const ProxyTiles& tiles, const FlatLayers& images) {
-  shaders::ReflectionConstants c = in.constants;
-  c.changed_lights = static_cast<std::uint32_t>(in.changed.size());
+  const shaders::ReflectionConstants& c = in.constants;
   const std::size_t texels = std::size_t{c.size.x} * c.size.y;
   Kernel kernel(device, shaders::reflections::proxy_blending_comp,
                 {{"kScreenSpace", in.ssr_color.empty() ? 0u : 1u},
@@ -67,8 +66,6 @@ struct Blended {
     const auto cm = static_cast<std::uint32_t>(std::lround(in.ssr_distance_m[i] * 100.0f));
     distances[i] = {static_cast<std::uint8_t>(cm % 256), static_cast<std::uint8_t>(cm / 256), 0, 0};
   }
-  std::vector<vec4> light = in.diffuse_light;
-  light.resize(in.seen.depth.size(), vec4(0.0f));
   kernel.sampled_image(5, gpu::Format::rgba32_float, c.size.x, c.size.y, ssr);
   kernel.sampled_image(6, gpu::Format::rgba8_unorm, c.size.x, c.size.y, distances);
   const auto count = static_cast<std::uint32_t>(rows.size());
@@ -76,8 +73,7 @@ struct Blended {
   kernel.input(7, rows);
   kernel.input(8, tiles.masks.empty() ? std::vector<std::uint32_t>{0} : tiles.masks);
   kernel.sampled_image(9, images.image(), gpu::Filter::linear);
-  kernel.sampled_image(10, gpu::Format::rgba32_float, in.seen.view.width, in.seen.view.height, light);
-  kernel.input(11, in.changed.empty() ? std::vector<shaders::ChangedLight>(1) : in.changed);
+  kernel.input(10, in.cells.empty() ? std::vector<vec4>(1) : in.cells);
   kernel.input(12, std::vector{shaders::ProxyTileConstants{tiles.tiles, tiles.words_per_tile, count, 0}});
   kernel.output_image(13, gpu::Format::rgba16_float, c.size.x, c.size.y);
   kernel.output_image(14, gpu::Format::rgba8_unorm, c.size.x, c.size.y);
@@ -88,8 +84,10 @@ struct Blended {
                                    const FlatLayers& images, ProxyTileSettings settings = {}) {
   settings.columns = in.constants.size.x;
   const ProxyTiles tiles = world.tiles(in.seen.view, settings);
-  return blend(device, in, proxy_rows(world.world, in.seen.view, world.set, tiles, world.captures, in.naive), tiles,
-               images);
+  BlendInput with_cells = in;
+  auto rows =
+      proxy_rows(world.world, in.seen.view, world.set, tiles, world.captures, in.factors, in.naive, with_cells.cells);
+  return blend(device, with_cells, std::move(rows), tiles, images);
 }
 
 /// Proxies about the origin that face anywhere.

@@ -82,7 +82,8 @@ class ProxyWorld {
     return tiles;
   }
   [[nodiscard]] std::vector<shaders::ProxyRow> rows(const RenderView& view, bool all) const {
-    return proxy_rows(world, view, set, tiles(view), captures, all);
+    std::vector<vec4> cells;
+    return proxy_rows(world, view, set, tiles(view), captures, {}, all, cells);
   }
 
   World world;

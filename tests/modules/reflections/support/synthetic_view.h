@@ -149,7 +149,6 @@ struct BoxMeeting {
   c.blur_across = 0.1f;
   c.pixel_roughness = 1;
   c.blur_radius = 8;
-  c.light_scale = 1.0f;
   c.capture_scale = 1.0f;
   return c;
 }
