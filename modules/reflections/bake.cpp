@@ -17,6 +17,7 @@
 #include "engine/ecs/view.h"
 #include "engine/math/finite.h"
 #include "engine/render/camera/light_scale.h"
+#include "engine/scene/assets.h"
 #include "engine/scene/components.h"
 #include "engine/scene/systems.h"
 #include "modules/lighting/components.h"
@@ -28,6 +29,7 @@
 #include "modules/reflections/bake/proxy_texture.h"
 #include "modules/reflections/components.h"
 #include "modules/reflections/culling/placed.h"
+#include "modules/reflections/materials.h"
 #include "modules/reflections/relighting/light_states.h"
 
 namespace gloam {
@@ -97,6 +99,29 @@ class EmissionLayers {
   std::uint32_t count_ = 0;
 };
 
+/// The captures that the world shows during a bake: at first none. Afterwards it has those from before.
+class WorldCaptures {
+ public:
+  explicit WorldCaptures(World& world) : world_(world) {
+    if (ReflectionCaptures* found = world.try_resource<ReflectionCaptures>()) before_ = std::move(*found);
+    version_ = before_.version;
+    show({});
+  }
+  ~WorldCaptures() { show(std::move(before_)); }
+  WorldCaptures(const WorldCaptures&) = delete;
+  WorldCaptures& operator=(const WorldCaptures&) = delete;
+
+  void show(ReflectionCaptures captures) {
+    captures.version = ++version_;
+    world_.set_resource(std::move(captures));
+  }
+
+ private:
+  World& world_;
+  ReflectionCaptures before_;
+  std::uint64_t version_ = 0;
+};
+
 /// Captures of one world.
 class Bake {
  public:
@@ -116,13 +141,25 @@ class Bake {
     const std::vector<ProxyToBake> proxies = proxies_to_bake(world_);
     const std::vector<ProbeToBake> probes = probes_to_bake(world_);
     sources_ = light_sources(world_);
-    total_ = proxies.size() + probes.size();
+    const ReflectiveMaterials materials = count_reflective(world_.resource<SceneAssets>());
+    const bool shows_probes = !probes.empty() && materials.mirror + materials.rough > 0;
+    total_ = proxies.size() + probes.size() * (shows_probes ? 2 : 1);
     captures_.content = capture_content(world_);
     captures_.light_scale = light_scale(scene_brightness(world_));
     captures_.lights = light_states(world_);
     if (settings_.progress) settings_.progress(0, total_);
-    GLOAM_TRY(add_proxies(proxies));
+    // Captures show what pictures show: surfaces that reflect their surroundings. Probes are captured twice, first with
+    // the sky alone for surroundings, then with each other.
+    WorldCaptures shown(world_);
     GLOAM_TRY(add_probes(probes));
+    if (shows_probes) {
+      shown.show(captures_);
+      captures_.probes = {};
+      captures_.probe_entities.clear();
+      captures_.probe_parts.clear();
+      GLOAM_TRY(add_probes(probes));
+    }
+    GLOAM_TRY(add_proxies(proxies));
     return std::move(captures_);
   }
 

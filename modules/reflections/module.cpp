@@ -138,7 +138,9 @@ class ReflectionsModule final : public Module {
   }
   /// Proxies and probes alone demand nothing: only reflective materials show them.
   [[nodiscard]] Demand demand(const World& world, const RenderView* view) const override {
-    if (view != nullptr && view->purpose == ViewPurpose::capture) return {false, "captures have no reflections"};
+    if (view != nullptr && view->purpose == ViewPurpose::capture &&
+        world.resource<ReflectionCaptures>().probe_entities.empty())
+      return {false, "captures reflect captured probes only"};
     const ReflectiveMaterials materials = count_reflective(world.resource<SceneAssets>());
     const auto count = [](std::size_t number, const char* one, const char* many) {
       return std::to_string(number) + (number == 1 ? one : many);

@@ -7,9 +7,11 @@
 #include <span>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "engine/scene/assets.h"
 #include "modules/lighting/outputs.h"
+#include "modules/reflections/bake/capture_view.h"
 #include "modules/reflections/captures.h"
 #include "modules/reflections/culling/tiles.h"
 #include "modules/reflections/materials.h"
@@ -120,10 +122,19 @@ void add_mirror_passes(FrameBuilder& frame, Staging& staging, const ReflectionPl
   frame.put(ReflectionHandles{uniforms, hits, light, surfaces.tiles.image});
 }
 
+/// The knobs of a view: captures show probes alone.
+ReflectionKnobs knobs_of(const FrameBuilder& frame) {
+  ReflectionKnobs knobs = reflection_knobs(frame.knobs());
+  if (frame.view().purpose != ViewPurpose::capture || knobs.mode == ReflectionKnobs::Mode::off) return knobs;
+  knobs.mode = ReflectionKnobs::Mode::tiers;
+  knobs.screen_space = knobs.proxies = false;
+  return knobs;
+}
+
 }  // namespace
 
 void announce_reflections(FrameBuilder& frame, Staging& staging, CaptureFactors& factors) {
-  const ReflectionKnobs knobs = reflection_knobs(frame.knobs());
+  const ReflectionKnobs knobs = knobs_of(frame);
   if (knobs.mode == ReflectionKnobs::Mode::off) return;
   const World& world = frame.world();
   const RenderView& view = frame.view();
@@ -140,6 +151,12 @@ void announce_reflections(FrameBuilder& frame, Staging& staging, CaptureFactors&
     factors.update(world, captures);
     of_proxies = factors.proxies(), of_probes = factors.probes();
     plan.factors.assign(factors.cells().begin(), factors.cells().end());
+  }
+  std::vector<CaptureFactor> without_lamps;
+  if (is_unlit_capture(view.id)) {
+    plan.factors.assign(std::size_t{kProbeCells} * kProbeCells, vec4(0.0f));
+    without_lamps.assign(captures.probe_entities.size(), CaptureFactor{.first = 0});
+    of_probes = without_lamps;
   }
   SurroundingProbes probes = surrounding_probes(frame, staging, of_probes, plan.factors);
   plan.no_specular = change != nullptr && *change == ReflectionOverride::no_specular;

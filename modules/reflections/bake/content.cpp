@@ -26,7 +26,7 @@ namespace gloam {
 namespace {
 
 /// Increment it when the same scene gives other captures than before.
-constexpr std::uint32_t kBakeVersion = 3;
+constexpr std::uint32_t kBakeVersion = 4;
 
 template <class Key>
 std::vector<Entity> sorted_with(const World& world) {

@@ -145,7 +145,7 @@ namespace {
 
 std::array<ViewRequest, 6> face_views(const dvec3& eye, std::uint32_t side, double unit_m) {
   std::array<ViewRequest, 6> requests;
-  static_assert(kBakeViews == std::tuple_size_v<decltype(requests)>);
+  static_assert(kBakeViews / 2 == std::tuple_size_v<decltype(requests)>);
   for (std::uint32_t face = 0; face < requests.size(); ++face) {
     const CubeFaceAxes axes = cube_face_axes(face);
     ViewSettings& settings = requests[face].settings;

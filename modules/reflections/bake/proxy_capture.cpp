@@ -86,9 +86,8 @@ Result<ProxyCapture> capture_proxy(Renderer& renderer, World& world, const Place
   std::array<ViewRequest, 3> requests;
   ViewSettings &all = requests[0].settings, &unlit = requests[1].settings, &depths = requests[2].settings;
   all = unlit = depths = proxy_view(proxy, kPixelsATexel * side, scene_unit(world));
-  unlit.id = capture_view(1).id;
   leave_lights_out(unlit);
-  depths.id = capture_view(2).id;
+  depths.id = capture_view(1).id;
   for (const auto& module : renderer.modules()) depths.without.emplace_back(module->name());
   GLOAM_TRY(renderer.render(world, requests));
   const auto light = renderer.read_linear(all.id), unlit_light = renderer.read_linear(unlit.id);

@@ -107,10 +107,13 @@ TEST_F(ReflectionDemand, a_reflective_object_out_of_view_has_no_passes) {
   EXPECT_THAT(passes, testing::IsEmpty());
 }
 
-TEST_F(ReflectionDemand, captures_have_no_reflections) {
+TEST_F(ReflectionDemand, captures_show_captured_probes_and_no_other_tier) {
   proxy_and_probe();
   floor(1.0f, 0.1f);
   request.settings.purpose = ViewPurpose::capture;
+  frames();
+  EXPECT_THAT(passes, testing::ElementsAre("reflection_composite"));
+  world.resource<ReflectionCaptures>().probe_entities.clear();
   frames();
   EXPECT_THAT(passes, testing::IsEmpty());
 }

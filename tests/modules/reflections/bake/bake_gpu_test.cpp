@@ -304,6 +304,52 @@ TEST_F(Bakes, on_any_number_of_threads_are_equal_to_the_bit) {
   }
 }
 
+// A mirror wall opposite to a wall that shines red and is lit by a green lamp, under a black sky.
+TEST_F(Bakes, show_what_reflecting_surfaces_reflect) {
+  Material mirror;
+  mirror.roughness = 0.0f;
+  mirror.metallic = 1.0f;
+  mirror.reflectivity = 1.0f;
+  scene.draw(scene.mesh(test::quad(2.0f, scene.material(mirror))), at(0, 0, -0.2));
+  Material shining_plaster;
+  shining_plaster.base_color = vec4(1.0f);
+  shining_plaster.metallic = 0.0f;
+  shining_plaster.roughness = 1.0f;
+  shining_plaster.reflectivity = 0.0f;
+  shining_plaster.emissive = vec3(2.0f, 0.0f, 0.0f);
+  scene.draw(scene.mesh(test::quad(6.0f, scene.material(shining_plaster))),
+             glm::rotate(at(0, 0, 4), 3.14159265358979, dvec3(0, 1, 0)));
+  proxy(vec2(2.0f, 2.0f), dmat4(1.0));
+  CubeProbe probe;
+  probe.size_m = vec3(20.0f, 20.0f, 8.0f);
+  probe.resolution = 32;
+  world.create(probe, WorldTransform{at(0.3, 0, 2)});
+  Light lamp;
+  lamp.color = vec3(0.0f, 1.0f, 0.0f);
+  lamp.intensity = 100.0f;
+  world.create(lamp, WorldTransform{at(0, 0, 2.5)});
+  const ReflectionCaptures captures = bake();
+  ASSERT_EQ(captures.proxy_parts.size(), 1u);
+  ASSERT_EQ(captures.proxy_parts[0].emission, 1);
+  const vec4 all = texel(captures.proxies, 0, 26, 26), unlit = texel(captures.proxies, 1, 26, 26);
+  EXPECT_NEAR(all.x, 2.0f, 0.2f) << "the wall as the mirror shows it";
+  EXPECT_GT(all.y, 1.0f) << "and the lamp's light on it";
+  EXPECT_NEAR(unlit.x, 2.0f, 0.2f);
+  EXPECT_LT(unlit.y, 0.02f) << "no lamp's light is among the light without lamps";
+}
+
+TEST_F(Bakes, leave_the_worlds_captures_as_they_were) {
+  proxy(vec2(4.0f, 4.0f), dmat4(1.0));
+  quarter_walls();
+  ReflectionCaptures own;
+  own.content = 77;
+  own.version = 5;
+  world.set_resource(own);
+  EXPECT_NE(bake().content, 77u);
+  EXPECT_EQ(world.resource<ReflectionCaptures>().content, 77u);
+  EXPECT_GT(world.resource<ReflectionCaptures>().version, 5u) << "what a bake has uploaded is not taken for these";
+}
+
 TEST_F(Bakes, of_a_world_without_proxies_and_probes_are_empty) {
   const ReflectionCaptures captures = bake();
   EXPECT_EQ(captures.proxies.count + captures.probes.count, 0u);
