@@ -7,7 +7,8 @@ namespace gloam {
 void add_reflection_knobs(KnobRegistry& registry) {
   add_knobs(registry, "reflections", kReflectionMode, kReflectionTiers, kReflectionTemporal, kReflectionPixelRoughness,
             kReflectionBlur, kReflectionLightScale, kSsrK1, kSsrK2, kSsrReach, kSsrRefine, kSsrFullResolution,
-            kSsrHierarchical, kProxyTiles, kProxyTileBound, kProxyLayers, kProxySphereTest, kNaiveProxyLoop);
+            kSsrHierarchical, kProxyTiles, kProxyTileBound, kProxyLayers, kProxySphereTest, kNaiveProxyLoop,
+            kReflectionRecapture);
 }
 
 ReflectionKnobs reflection_knobs(const KnobRegistry& registry) {
@@ -33,6 +34,7 @@ ReflectionKnobs reflection_knobs(const KnobRegistry& registry) {
   knobs.layers = registry.value(kProxyLayers);
   knobs.sphere_test = registry.value(kProxySphereTest);
   knobs.naive = registry.value(kNaiveProxyLoop);
+  knobs.recapture = registry.value(kReflectionRecapture);
   return knobs;
 }
 

@@ -48,6 +48,7 @@ struct ReflectionKnobs {
   std::uint32_t layers = 4;
   bool sphere_test = true;
   bool naive = false;
+  bool recapture = false;
 
   /// Whether reflection images are drawn, for either of the first two tiers.
   [[nodiscard]] bool mirror() const { return screen_space || proxies; }
@@ -172,6 +173,14 @@ inline constexpr ChoiceKnob<bool> kNaiveProxyLoop{
     .choices = {{"tiles", false}, {"naive", true}},
     .exact = true,
     .same_picture = true,
+    .only_with = "reflections.tiers=ibr+cube|all"};
+
+inline constexpr ChoiceKnob<bool> kReflectionRecapture{
+    .name = "reflections.recapture",
+    .meaning =
+        "whether outdated captures of proxies in view are drawn again when lights have changed: never (off), or the "
+        "most wrong one of each frame (budget)",
+    .choices = {{"off", false}, {"budget", true}},
     .only_with = "reflections.tiers=ibr+cube|all"};
 
 void add_reflection_knobs(KnobRegistry& registry);

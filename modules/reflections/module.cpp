@@ -3,6 +3,8 @@
 #include "modules/reflections/module.h"
 
 #include <map>
+#include <set>
+#include <utility>
 
 #include "engine/render/frame_builder.h"
 #include "engine/render/views/seen_surfaces.h"
@@ -25,6 +27,7 @@
 #include "modules/reflections/planar/patches.h"
 #include "modules/reflections/proxies/rows.h"
 #include "modules/reflections/proxies/systems.h"
+#include "modules/reflections/recapture/recapture.h"
 #include "modules/reflections/reference/adapter.h"
 #include "modules/reflections/reflection_passes.h"
 #include "modules/reflections/relighting/capture_factors.h"
@@ -114,7 +117,8 @@ class ReflectionsModule final : public Module {
     for (const std::string_view knob :
          {kReflectionMode.name, kReflectionTiers.name, kReflectionPixelRoughness.name, kReflectionBlur.name,
           kReflectionTemporal.name, kReflectionLightScale.name, kSsrK1.name, kSsrK2.name, kSsrReach.name,
-          kSsrRefine.name, kSsrFullResolution.name, kSsrHierarchical.name, kProxyLayers.name})
+          kSsrRefine.name, kSsrFullResolution.name, kSsrHierarchical.name, kProxyLayers.name,
+          kReflectionRecapture.name})
       references.push_back(traced_reflections(std::string(knob), false, &traced_extras));
     return references;
   }
@@ -130,7 +134,13 @@ class ReflectionsModule final : public Module {
   }
   void companion_views(World& world, const ViewSettings& main, const KnobRegistry& knobs,
                        CompanionViews& companions) const override {
-    add_mirrored_view(world, main, reflection_knobs(knobs), companions);
+    const ReflectionKnobs settings = reflection_knobs(knobs);
+    add_mirrored_view(world, main, settings, companions);
+    const bool recaptures = settings.recapture && settings.proxies && settings.light_scale;
+    const auto factors = factors_.find(world_id(world));
+    const bool reflected =
+        recaptures && factors != factors_.end() && mirrors_.contains({world_id(world), main.id.value});
+    add_recapture_view(world, main, reflected ? &factors->second : nullptr, companions);
   }
   [[nodiscard]] bool shows_surfaces(const World&, const RenderView&) const override { return false; }
   [[nodiscard]] std::string switched_off(const World&, const KnobRegistry& knobs) const override {
@@ -163,9 +173,11 @@ class ReflectionsModule final : public Module {
     if (phase == PassPhase::announce) {
       announce_reflections(frame, staging_, factors_of(frame.world()));
       announce_reflection_view(frame);
+      const auto* plan = frame.find<ReflectionPlan>();
+      note_mirrors(frame, plan != nullptr && plan->mirror);
     }
     if (phase == PassPhase::lists) add_reflection_list_passes(frame);
-    if (phase == PassPhase::shading) add_reflection_passes(frame, staging_);
+    if (phase == PassPhase::shading) add_reflection_passes(frame, staging_, factors_of(frame.world()));
     if (const auto* probes = frame.find<SurroundingProbes>()) last_probes_ = probes->rows.size();
     if (phase == PassPhase::shading) last_blended_ = frame.find<BlendedLayer>() != nullptr;
     if (phase == PassPhase::visualize) add_reflection_view_pass(frame);
@@ -191,6 +203,7 @@ class ReflectionsModule final : public Module {
   void release() override {
     staging_.release();
     factors_.clear();
+    mirrors_.clear();
   }
 
  private:
@@ -206,11 +219,21 @@ class ReflectionsModule final : public Module {
     return factors_[world_id(world)];
   }
 
+  void note_mirrors(const FrameBuilder& frame, bool mirror) {
+    const std::pair key(world_id(frame.world()), frame.view().id.value);
+    if (mirror) {
+      mirrors_.insert(key);
+    } else {
+      mirrors_.erase(key);
+    }
+  }
+
   static constexpr std::size_t kMostWorlds = 8;
   Staging staging_{"reflections"};
-  std::map<std::uint64_t, CaptureFactors> factors_;  ///< by world_id
-  std::size_t last_probes_ = 0;                      ///< captured probes of the last frame
-  bool last_blended_ = false;                        ///< it had a BlendedLayer
+  std::map<std::uint64_t, CaptureFactors> factors_;            ///< by world_id
+  std::set<std::pair<std::uint64_t, std::uint32_t>> mirrors_;  ///< world_id and view: its last frame had mirrors
+  std::size_t last_probes_ = 0;                                ///< captured probes of the last frame
+  bool last_blended_ = false;                                  ///< it had a BlendedLayer
 };
 
 }  // namespace

@@ -25,6 +25,7 @@
 #include "modules/reflections/passes/uploads.h"
 #include "modules/reflections/probes/rows.h"
 #include "modules/reflections/proxies/rows.h"
+#include "modules/reflections/recapture/recapture.h"
 #include "modules/reflections/scene_unit.h"
 
 namespace gloam {
@@ -103,15 +104,20 @@ struct FoundSurfaces {
 
 /// Tiers 1 and 2, or the mirrored picture in their place.
 void add_mirror_passes(FrameBuilder& frame, Staging& staging, const ReflectionPlan& plan,
-                       const ReflectionUniforms& uniforms, const MirrorSurfaces& surfaces) {
+                       const ReflectionUniforms& uniforms, const MirrorSurfaces& surfaces, CaptureFactors& factors) {
   const ReflectionKnobs& knobs = plan.knobs;
   const auto& captures = frame.world().resource<ReflectionCaptures>();
   ProxyInputs proxies{.rows = plan.proxies,
                       .masks = frame.world().view_resource<ProxyTiles>(frame.view().id).masks,
                       .factors = plan.factors,
                       .images = {}};
-  if (knobs.proxies)
-    proxies.images = upload_captures(frame, staging, "reflection_proxies", captures.proxies, captures.version);
+  if (knobs.proxies) {
+    bool uploaded = false;
+    proxies.images =
+        upload_captures(frame, staging, "reflection_proxies", captures.proxies, captures.version, &uploaded);
+    if (uploaded) factors.forget_recaptures();
+    proxies.images = add_recapture_passes(frame, factors, proxies.images);
+  }
   ScreenSpaceHits hits;
   if (knobs.screen_space) hits = add_screen_space_pass(frame, knobs, uniforms, surfaces.tiles);
   MirroredLight light = plan.planar ? add_planar_pass(frame, knobs, uniforms, surfaces, *plan.planar)
@@ -183,13 +189,13 @@ void add_reflection_list_passes(FrameBuilder& frame) {
   frame.put(FoundSurfaces{uniforms, add_surface_passes(frame, uniforms)});
 }
 
-void add_reflection_passes(FrameBuilder& frame, Staging& staging) {
+void add_reflection_passes(FrameBuilder& frame, Staging& staging, CaptureFactors& factors) {
   const ReflectionPlan* plan = frame.find<ReflectionPlan>();
   if (plan == nullptr || plan->no_specular) return;
   if (plan->traced != nullptr) return add_traced_light_pass(frame, upload_traced(frame, staging, *plan->traced));
   const auto& [uniforms, tiles] = frame.get<FoundSurfaces>();
   const MirrorSurfaces surfaces = add_surroundings_passes(frame, uniforms, tiles, plan->mirror);
-  if (plan->mirror) return add_mirror_passes(frame, staging, *plan, uniforms, surfaces);
+  if (plan->mirror) return add_mirror_passes(frame, staging, *plan, uniforms, surfaces, factors);
   frame.put(ReflectionHandles{.uniforms = uniforms, .hits = {}, .light = {}, .mirrors = {}});
 }
 
@@ -203,6 +209,7 @@ void list_reflection_pipelines(const ReflectionKnobs& knobs, bool direct, bool b
   add(surroundings_program(knobs.mirror() || planar, probes));
   if (!knobs.mirror() && !planar) return;
   if (knobs.screen_space) add(screen_space_program(knobs, blended, probes));
+  if (knobs.proxies && knobs.recapture) add(recapture_program());
   add(planar ? planar_program(knobs) : proxy_program(knobs));
   if (knobs.temporal) add(temporal_program());
   if (knobs.blur)

@@ -19,7 +19,8 @@ void announce_reflections(FrameBuilder& frame, Staging& staging, CaptureFactors&
 void add_reflection_list_passes(FrameBuilder& frame);
 
 /// PassPhase::shading, after lighting: adds mirrored images to LitOutput and puts ReflectionHandles on the board.
-void add_reflection_passes(FrameBuilder& frame, Staging& staging);
+/// factors: as of announce_reflections(); notes captures that the frame makes again.
+void add_reflection_passes(FrameBuilder& frame, Staging& staging, CaptureFactors& factors);
 
 /// Pipelines that add_reflection_passes() uses with these knobs in a world with proxies. direct: on a device that runs
 /// threads in turn. blended: views have a BlendedLayer. probes: number of captured probes.

@@ -43,7 +43,7 @@ ROOMS = {
                         ("components", "outputs", "knobs", "reference")),
     "modules/closeups": (("umbra", "pairs", "compose", "debug"), ("components", "knobs")),
     "modules/lighting": (("antialiasing", "display", "reference"), ("components", "outputs", "knobs", "environment", "lighting_passes")),
-    "modules/reflections": (("culling", "relighting", "proxies", "planar", "probes", "passes", "fitting", "bake", "reference", "debug"),
+    "modules/reflections": (("culling", "relighting", "proxies", "planar", "probes", "passes", "fitting", "bake", "recapture", "reference", "debug"),
                             ("components", "captures", "bake", "override", "knobs", "frame", "bindings", "materials", "scene_unit")),
     "modules/grass": (("growth", "field", "lod", "simulation", "drawing", "reference", "debug"), ("components", "knobs", "frame")),
     "modules/particles": (("emitters", "bake", "simulation", "sorting", "lighting", "drawing", "reference", "debug"),
@@ -76,7 +76,7 @@ ROOMS = {
     "shaders/shadows": (("maps", "filter", "final_lists", "debug"), None),
     "shaders/grass": (("lod", "simulation", "drawing", "debug"), None),
     "shaders/particles": (("simulation", "sorting", "lighting", "drawing", "debug"), None),
-    "shaders/reflections": (("culling", "proxies", "probes", "passes", "debug", "kernel_check"), None),
+    "shaders/reflections": (("culling", "proxies", "probes", "passes", "recapture", "debug", "kernel_check"), None),
 }
 
 # Third-party headers: the folders that may include them, and those that a public header may not include.

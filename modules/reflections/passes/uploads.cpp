@@ -9,7 +9,7 @@
 namespace gloam {
 
 ImageRef upload_captures(FrameBuilder& frame, Staging& staging, const char* name, const CapturedLayers& layers,
-                         std::uint64_t version) {
+                         std::uint64_t version, bool* uploaded) {
   if (layers.count == 0) return {};
   gpu::ImageDesc desc;
   desc.name = name;
@@ -24,6 +24,7 @@ ImageRef upload_captures(FrameBuilder& frame, Staging& staging, const char* name
       desc, {.scope = HistoryScope::world, .final_access = gpu::Access::fragment_read, .reset = {.key = version}});
   if (!frame.check(kept)) return {};
   if (kept->filled()) return kept->image;
+  if (uploaded != nullptr) *uploaded = true;
   const auto slice = staging.ring(frame.services().device).allocate(layers.texels.size() * sizeof(std::uint16_t));
   if (!frame.check(slice)) return {};
   std::memcpy(slice->bytes.data(), layers.texels.data(), slice->bytes.size());

@@ -40,12 +40,6 @@ struct Change {
   dvec3 now = dvec3(0.0);
 };
 
-/// Light of all cells of a capture.
-struct CellSums {
-  dvec3 then = dvec3(0.0);
-  dvec3 now = dvec3(0.0);
-};
-
 /// One channel of a cell's factor. mean_then, mean_now: of all cells; a share of them keeps cells that were nearly dark
 /// from factors without bounds.
 double factor_channel(double then, double now, double mean_then, double mean_now) {
@@ -54,43 +48,53 @@ double factor_channel(double then, double now, double mean_then, double mean_now
   return std::min(factor > kBlack ? factor : 0.0, static_cast<double>(kMostCaptureFactor));
 }
 
-/// Sums up how lamps of a capture have changed, and makes its factors.
+/// Sums up how lamps have changed since a capture was made, and makes its factors.
 class LightShares {
  public:
-  explicit LightShares(const CapturedParts& parts) : parts_(parts) {
-    for (const vec3& lux : parts.lamps_lux) then_ += dvec3(lux);
+  /// then, now: illuminance of each cell. lit, unlit: of CapturedParts.
+  LightShares(std::span<const vec3> then, std::span<const dvec3> now, double lit, double unlit)
+      : then_(then), now_(now), lit_(lit), unlit_(unlit) {
+    for (const vec3& lux : then) all_then_ += dvec3(lux);
+    for (const dvec3& lux : now) all_now_ += lux;
   }
   /// change: sum over all cells. turned: turned().
   void add(const Change& change, double turned) { changes_.push_back({change, turned}); }
   /// Appends the capture's factors.
-  [[nodiscard]] CaptureFactor finish(std::span<const CellSums> sums, std::vector<vec4>& cells) const {
+  [[nodiscard]] CaptureFactor finish(std::vector<vec4>& cells) const {
     CaptureFactor result;
-    if (changes_.empty()) return result;
-    const auto count = static_cast<double>(sums.size());
-    dvec3 now(0.0), shown(0.0);
-    for (const CellSums& sum : sums) now += glm::max(sum.now, dvec3(0.0));
+    const auto count = static_cast<double>(then_.size());
+    dvec3 shown(0.0);
     std::vector<dvec3> factors;
     bool limited = false, all_1 = true;
-    for (const CellSums& sum : sums) {
+    for (std::size_t cell = 0; cell < then_.size(); ++cell) {
       dvec3& factor = factors.emplace_back();
+      const dvec3 then(then_[cell]);
       for (int c = 0; c < 3; ++c)
-        factor[c] = factor_channel(sum.then[c], std::max(sum.now[c], 0.0), then_[c] / count, now[c] / count);
-      shown += factor * sum.then;
+        factor[c] = factor_channel(then[c], now_[cell][c], all_then_[c] / count, all_now_[c] / count);
+      shown += factor * then;
     }
     for (dvec3& factor : factors)
       for (int c = 0; c < 3; ++c) {
         // What lay in the dark cannot show its light: the other cells do.
-        if (shown[c] > 0.0) factor[c] *= std::clamp(now[c] / shown[c], 1.0, kMostAdded);
+        if (shown[c] > 0.0) factor[c] *= std::clamp(all_now_[c] / shown[c], 1.0, kMostAdded);
         factor[c] = std::min(factor[c], static_cast<double>(kMostCaptureFactor));
         limited = limited || factor[c] >= static_cast<double>(kMostCaptureFactor);
         if (std::abs(factor[c] - 1.0) < 1e-6) factor[c] = 1.0;
         all_1 = all_1 && factor[c] == 1.0;
       }
-    result.error = error(now, limited);
+    result.error = error(limited);
     if (all_1) return result;
     result.first = static_cast<std::int32_t>(cells.size());
     for (const dvec3& factor : factors) cells.emplace_back(vec3(factor), 1.0f);
     return result;
+  }
+  /// CapturedParts::lit of a capture that is made now.
+  [[nodiscard]] double lit_now() const {
+    double elsewhere = 0.0;
+    for (const Share& share : changes_) elsewhere += share.turned * luminance(share.change.now);
+    // What lay in the dark has no light that a factor could scale.
+    return std::max(lit_ * luminance(mean_factor()),
+                    kUsualAlbedo / std::numbers::pi * elsewhere / static_cast<double>(then_.size()));
   }
 
  private:
@@ -98,31 +102,36 @@ class LightShares {
     Change change;
     double turned = 0.0;
   };
-  /// CaptureFactor::error. now: sum over all cells.
-  [[nodiscard]] float error(const dvec3& now, bool limited) const {
-    const double lux = luminance(now), cells = static_cast<double>(parts_.lamps_lux.size());
-    if (!(lux > kBlack * luminance(then_))) return 0.0f;
-    dvec3 factor(1.0), left = then_;
-    for (int c = 0; c < 3; ++c) factor[c] = then_[c] > 0.0 ? now[c] / then_[c] : 1.0;
-    double misplaced = 0.0, elsewhere = 0.0;
+  [[nodiscard]] dvec3 mean_factor() const {
+    dvec3 factor(1.0);
+    for (int c = 0; c < 3; ++c) factor[c] = all_then_[c] > 0.0 ? all_now_[c] / all_then_[c] : 1.0;
+    return factor;
+  }
+  /// CaptureFactor::error.
+  [[nodiscard]] float error(bool limited) const {
+    const double lux = luminance(all_now_);
+    if (!(lux > kBlack * luminance(all_then_))) return 0.0f;
+    const dvec3 factor = mean_factor();
+    dvec3 left = all_then_;
+    double misplaced = 0.0;
     for (const Share& share : changes_) {
       const dvec3 scaled = factor * share.change.then;
       left -= share.change.then;
       misplaced += (1.0 - share.turned) * luminance(glm::abs(share.change.now - scaled)) +
                    share.turned * luminance(share.change.now + scaled);
-      elsewhere += share.turned * luminance(share.change.now);
     }
     misplaced += luminance(glm::abs(dvec3(1.0) - factor) * glm::max(left, dvec3(0.0)));
-    // What lay in the dark has no light that a factor could scale.
-    const double lit = std::max(static_cast<double>(parts_.lit) * luminance(factor),
-                                kUsualAlbedo / std::numbers::pi * elsewhere / cells);
-    const double all = lit + static_cast<double>(parts_.unlit);
-    const double share = limited || !(luminance(then_) > 0.0) ? 1.0 : std::min(misplaced / (2.0 * lux), 1.0);
+    const double lit = lit_now(), all = lit + unlit_;
+    const double share = limited || !(luminance(all_then_) > 0.0) ? 1.0 : std::min(misplaced / (2.0 * lux), 1.0);
     return all > 0.0 ? static_cast<float>(share * lit / all) : 0.0f;
   }
 
-  const CapturedParts& parts_;
-  dvec3 then_ = dvec3(0.0);  ///< sum over all cells, lux
+  std::span<const vec3> then_;
+  std::span<const dvec3> now_;
+  double lit_ = 0.0;
+  double unlit_ = 0.0;
+  dvec3 all_then_ = dvec3(0.0);
+  dvec3 all_now_ = dvec3(0.0);
   std::vector<Share> changes_;
 };
 
@@ -184,8 +193,12 @@ void CaptureFactors::update(const World& world, const ReflectionCaptures& captur
   const bool same_places = version_ != 0 && captures_version_ == captures.version &&
                            places_version == places_version_ && proxies_.size() == proxies &&
                            probes_.size() == probes && units_.size() == captures.lights.size();
-  if (same_places && changed == changed_) return;
+  if (same_places && changed == changed_ && !recaptures_changed_) return;
   if (!same_places) units_.assign(captures.lights.size(), {});
+  if (captures_version_ != captures.version || recaptures_.size() != proxies + probes)
+    recaptures_.assign(proxies + probes, {});
+  recaptures_changed_ = false;
+  now_.assign(proxies + probes, {});
   captures_version_ = captures.version;
   places_version_ = places_version;
   changed_ = std::move(changed);
@@ -195,7 +208,8 @@ void CaptureFactors::update(const World& world, const ReflectionCaptures& captur
   probes_.assign(probes, {});
   cells_.clear();
   outdated_ = 0;
-  if (!changed_.empty()) update_all(world, captures);
+  const bool noted = std::ranges::any_of(recaptures_, &Recapture::noted);
+  if (noted || !changed_.empty()) update_all(world, captures);
 }
 
 void CaptureFactors::update_all(const World& world, const ReflectionCaptures& captures) {
@@ -213,7 +227,7 @@ void CaptureFactors::update_all(const World& world, const ReflectionCaptures& ca
     if (surfaces.named)
       for (const CapturedProxyLight& light : captures.proxy_lights)
         if (light.layer == i) surfaces.only_lights.push_back(light.light);
-    proxies_[i] = factor_of(surfaces, captures.proxy_parts[i]);
+    proxies_[i] = factor_of(surfaces, captures.proxy_parts[i], i);
   }
   for (std::size_t i = 0; i < probes_.size() && i < captures.probe_parts.size(); ++i) {
     const WorldTransform* transform = world.try_get<WorldTransform>(captures.probe_entities[i]);
@@ -222,7 +236,7 @@ void CaptureFactors::update_all(const World& world, const ReflectionCaptures& ca
                             .first = proxies_.size() * kProxyCells * kProxyCells + i * kProbeCells * kProbeCells,
                             .only_lights = {},
                             .named = false};
-    probes_[i] = factor_of(surfaces, captures.probe_parts[i]);
+    probes_[i] = factor_of(surfaces, captures.probe_parts[i], proxies_.size() + i);
   }
   for (const std::vector<CaptureFactor>* all : {&proxies_, &probes_})
     outdated_ += static_cast<std::size_t>(
@@ -241,33 +255,71 @@ double CaptureFactors::unit_then(const Surfaces& surfaces, const Changed& light,
   return static_cast<double>(unit);
 }
 
-CaptureFactor CaptureFactors::factor_of(const Surfaces& surfaces, const CapturedParts& parts) {
+CaptureFactor CaptureFactors::factor_of(const Surfaces& surfaces, const CapturedParts& parts, std::size_t row) {
   const std::size_t cells = surfaces.patches.size();
   if (cells == 0 || parts.lamps_lux.size() != cells) return {};
-  std::vector<CellSums> sums(cells);
-  for (std::size_t cell = 0; cell < cells; ++cell)
-    sums[cell] = {dvec3(parts.lamps_lux[cell]), dvec3(parts.lamps_lux[cell])};
-  LightShares shares(parts);
+  std::vector<dvec3> now(parts.lamps_lux.begin(), parts.lamps_lux.end());
+  Recapture& today = now_[row];
+  std::vector<Change> changes;
   for (const Changed& light : changed_) {
     if (!surfaces.counts(light.captured < units_.size() ? light.then.light : light.now.light)) continue;
     const bool elsewhere = !light.then.same_place(light.now) || light.then.emitted == vec3(0.0f);
-    Change all;
+    Change& all = changes.emplace_back();
     for (std::size_t cell = 0; cell < cells; ++cell) {
       const double unit = unit_then(surfaces, light, cell);
-      double today = unit;
+      double today_unit = unit;
       if (light.now.emitted == vec3(0.0f)) {
-        today = 0.0;
+        today_unit = 0.0;
       } else if (elsewhere) {
-        today = unit_illuminance(light.now, surfaces.patches[cell]);
+        today_unit = unit_illuminance(light.now, surfaces.patches[cell]);
         ++evaluations_;
       }
-      const Change change{unit * dvec3(light.then.emitted), today * dvec3(light.now.emitted)};
-      sums[cell].now += change.now - change.then;
+      const Change change{unit * dvec3(light.then.emitted), today_unit * dvec3(light.now.emitted)};
+      now[cell] += change.now - change.then;
       all.then += change.then, all.now += change.now;
     }
-    shares.add({all.then, all.now}, turned(light.then, light.now, surfaces.patches[cells / 2].center));
+    today.lamps.push_back({light.now, all.now});
   }
-  return shares.finish(sums, cells_);
+  for (dvec3& lux : now) lux = glm::max(lux, dvec3(0.0));
+  const Recapture& before = recaptures_[row];
+  LightShares shares(before.noted ? before.lux : parts.lamps_lux, now,
+                     static_cast<double>(before.noted ? before.lit : parts.lit), static_cast<double>(parts.unlit));
+  const dvec3 center = surfaces.patches[cells / 2].center;
+  for (std::size_t i = 0, lamp = 0; i < changed_.size() && lamp < changes.size(); ++i) {
+    const Changed& light = changed_[i];
+    if (!surfaces.counts(light.captured < units_.size() ? light.then.light : light.now.light)) continue;
+    Change change = changes[lamp++];
+    CapturedLightState then = light.then;
+    for (const Lamp& past : before.lamps)
+      if (before.noted && past.state.light == light.now.light) then = past.state, change.then = past.lux;
+    shares.add(change, turned(then, light.now, center));
+  }
+  // Lamps that are as at the bake, but were not when the capture was made.
+  for (const Lamp& past : before.lamps)
+    if (std::ranges::find(today.lamps, past.state.light, [](const Lamp& lamp) { return lamp.state.light; }) ==
+        today.lamps.end())
+      shares.add({past.lux, dvec3(0.0)}, 1.0);
+  today.lux.assign(now.begin(), now.end());
+  today.lit = static_cast<float>(shares.lit_now());
+  return shares.finish(cells_);
+}
+
+void CaptureFactors::note_recapture(std::size_t row) {
+  if (row >= now_.size() || now_[row].lux.empty()) return;
+  recaptures_[row] = now_[row];
+  recaptures_[row].noted = true;
+  // Before the next update, it is not asked for a second time.
+  CaptureFactor& noted = row < proxies_.size() ? proxies_[row] : probes_[row - proxies_.size()];
+  if (noted.error > kMostCaptureError) --outdated_;
+  noted.error = 0.0f;
+  recaptures_changed_ = true;
+}
+
+void CaptureFactors::forget_recaptures() {
+  for (Recapture& recapture : recaptures_) {
+    recaptures_changed_ = recaptures_changed_ || recapture.noted;
+    recapture = {};
+  }
 }
 
 }  // namespace gloam

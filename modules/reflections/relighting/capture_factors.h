@@ -43,6 +43,14 @@ class CaptureFactors {
   /// own_light().
   [[nodiscard]] std::span<const CaptureFactor> proxies() const { return proxies_; }
   [[nodiscard]] std::span<const CaptureFactor> probes() const { return probes_; }
+  /// Notes that a capture shows its proxy as it is since the last update, with the lamps of that moment. row: layer of
+  /// the proxy; for a probe the number of proxies plus its layer. The next update sees it.
+  void note_recapture(std::size_t row);
+  /// Notes that all captures show again what they showed when they were baked.
+  void forget_recaptures();
+  /// Captures of this row that were noted since the captures were put into the world.
+  [[nodiscard]] bool recaptured(std::size_t row) const { return row < recaptures_.size() && recaptures_[row].noted; }
+
   /// Proxies and probes whose error is above kMostCaptureError.
   [[nodiscard]] std::size_t outdated() const { return outdated_; }
   /// Illuminances that were computed, of one light on one cell, since the object was made.
@@ -58,9 +66,21 @@ class CaptureFactors {
     friend bool operator==(const Changed&, const Changed&) = default;
   };
   struct Surfaces;  ///< of one capture
+  /// A lamp as a capture was or would be made under it.
+  struct Lamp {
+    CapturedLightState state;
+    dvec3 lux = dvec3(0.0);  ///< its illuminance of all cells together
+  };
+  /// A capture that was made after the bake, or one as it would be made now.
+  struct Recapture {
+    bool noted = false;
+    std::vector<vec3> lux;    ///< CapturedParts::lamps_lux
+    std::vector<Lamp> lamps;  ///< those that differ from ReflectionCaptures::lights, also if they emit nothing
+    float lit = 0.0f;         ///< CapturedParts::lit
+  };
   [[nodiscard]] static std::vector<Changed> changed_lights(const World& world, const ReflectionCaptures& captures);
   void update_all(const World& world, const ReflectionCaptures& captures);
-  [[nodiscard]] CaptureFactor factor_of(const Surfaces& surfaces, const CapturedParts& parts);
+  [[nodiscard]] CaptureFactor factor_of(const Surfaces& surfaces, const CapturedParts& parts, std::size_t row);
   [[nodiscard]] double unit_then(const Surfaces& surfaces, const Changed& light, std::size_t cell);
 
   std::vector<CaptureFactor> proxies_;
@@ -69,6 +89,9 @@ class CaptureFactors {
   std::vector<Changed> changed_;
   /// By captured light: its unit illuminances at capture in all cells of all captures; NaN: not computed yet.
   std::vector<std::vector<float>> units_;
+  std::vector<Recapture> recaptures_;  ///< by row
+  std::vector<Recapture> now_;         ///< by row: what a capture would be now; without cells if nothing has changed
+  bool recaptures_changed_ = false;
   std::size_t all_cells_ = 0;
   std::size_t outdated_ = 0;
   std::uint64_t evaluations_ = 0;
