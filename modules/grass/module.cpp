@@ -2,17 +2,22 @@
 // SPDX-License-Identifier: MIT
 #include "modules/grass/module.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "engine/core/hash.h"
 #include "engine/math/finite.h"
 #include "engine/math/frustum.h"
 #include "engine/render/frame_builder.h"
 #include "engine/render/views/seen_surfaces.h"
 #include "engine/render/worlds/world_id.h"
+#include "engine/scene/posing/animated_nodes.h"
 #include "engine/scene/units.h"
 #include "modules/grass/components.h"
 #include "modules/grass/debug/lod_view.h"
@@ -23,6 +28,7 @@
 #include "modules/grass/reference/tip_distance.h"
 #include "modules/grass/simulation/colliders.h"
 #include "modules/grass/simulation/simulate_blades_pass.h"
+#include "modules/lighting/components.h"
 #include "modules/lighting/outputs.h"
 #include "modules/lights/components.h"
 #include "modules/shadows/components.h"
@@ -80,6 +86,31 @@ void grass_patches_system(Resource<const GrassField> field, Resource<const Grass
   *visible = find_visible_patches(field->patches, metric, culling, jobs);
 }
 
+/// CapturedExtras: captures show the grass as it stands before its first step.
+std::uint64_t captured_grass_content(const World& world) {
+  std::vector<Entity> lawns;
+  world.view<const GrassSurface, const WorldTransform>().each(
+      [&](Entity entity, const GrassSurface&, const WorldTransform&) { lawns.push_back(entity); });
+  std::ranges::sort(lawns, {}, &Entity::index);
+  const AnimatedNodes animated(world);
+  Hasher hasher;
+  for (const Entity entity : lawns) {
+    const auto& lawn = world.get<GrassSurface>(entity);
+    for (const float value : {lawn.density, lawn.height_m.x, lawn.height_m.y, lawn.width_m, lawn.max_distance_m})
+      hasher.bytes_of(value);
+    hasher.value(lawn.seed).value(animated.moves(entity));
+    if (!animated.moves(entity)) hasher.bytes_of(world.get<WorldTransform>(entity).matrix);
+    if (lawn.types == 0) continue;
+    std::ifstream file(world.resource<SceneStrings>().text(lawn.types), std::ios::binary);
+    hasher.text(std::string{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()});
+  }
+  world.view<const Wind>().each([&](const Wind& wind) {
+    hasher.bytes_of(wind.velocity);
+    hasher.bytes_of(wind.gust);
+  });
+  return hasher.digest();
+}
+
 /// Blades are thinned and widened where they are thinner than pixels: the truth is all of them, sampled finely.
 std::vector<ReferenceInfo> grass_references() {
   std::vector<ReferenceInfo> references = tip_references();
@@ -108,6 +139,7 @@ class GrassModule final : public Module {
     world.ensure_resource<GrassField>();
     world.ensure_resource<GrassEntities>();
     world.ensure_resource<GrassWorld>();
+    world.ensure_resource<CapturedExtras>().content["grass"] = &captured_grass_content;
   }
   void knobs(KnobRegistry& registry) const override { add_grass_knobs(registry); }
   [[nodiscard]] std::vector<ReferenceInfo> references() const override { return grass_references(); }
@@ -130,7 +162,7 @@ class GrassModule final : public Module {
       return {true, "grass disappears"};
     if (surfaces == 0) return {false, "no surface grows grass"};
     if (view != nullptr) {
-      if (view->static_only) return {false, "grass moves"};
+      if (view->static_only && view->purpose != ViewPurpose::capture) return {false, "grass moves"};
       const auto* visible = world.try_view_resource<VisiblePatches>(view->id);
       if (world.resource<GrassGrowthSettings>().density_scale == 0.0f) return {false, "grass.density_scale=0"};
       if (visible == nullptr || visible->patches.empty()) return {false, "no grass in view"};

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "engine/ecs/entity.h"
@@ -28,6 +30,13 @@ struct FlameSource {
   /// Mean light of the flame in its rectangle, seen from the side: side × side texels, rows from the top; rgb in cd/m²,
   /// premultiplied by alpha.
   std::function<std::vector<vec4>(const World& world, Entity flame, std::uint32_t side)> picture;
+};
+
+/// What captures of the static scene depend on beside meshes, lights and sky: a world resource. A module that draws
+/// something static without meshes adds its function in Module::register_components, under its name.
+struct CapturedExtras {
+  /// By module: a hash of all that decides what the module draws into a capture. Reads components only.
+  std::map<std::string, std::function<std::uint64_t(const World& world)>> content;
 };
 
 }  // namespace gloam

@@ -9,7 +9,7 @@ ViewSettings capture_view(std::uint32_t index) {
   settings.id = ViewId{kFirstBakeView.value + index};
   settings.follow_camera = false;
   settings.purpose = ViewPurpose::capture;
-  settings.without = {"fog", "particles", "grass", "depth_of_field"};
+  settings.without = {"fog", "particles", "depth_of_field"};
   settings.static_only = true;
   settings.camera_cut = true;
   return settings;

@@ -26,7 +26,7 @@ namespace gloam {
 namespace {
 
 /// Increment it when the same scene gives other captures than before.
-constexpr std::uint32_t kBakeVersion = 4;
+constexpr std::uint32_t kBakeVersion = 5;
 
 template <class Key>
 std::vector<Entity> sorted_with(const World& world) {
@@ -233,6 +233,8 @@ std::uint64_t capture_content(const World& world) {
   add_proxies(hasher, world, poses, lights);
   hasher.text("probes");
   add_probes(hasher, world, poses);
+  if (const CapturedExtras* extras = world.try_resource<CapturedExtras>())
+    for (const auto& [module, content] : extras->content) hasher.text(module).value(content(world));
   return std::max<std::uint64_t>(hasher.digest(), 1);
 }
 

@@ -88,7 +88,8 @@ Result<ProxyCapture> capture_proxy(Renderer& renderer, World& world, const Place
   all = unlit = depths = proxy_view(proxy, kPixelsATexel * side, scene_unit(world));
   leave_lights_out(unlit);
   depths.id = capture_view(1).id;
-  for (const auto& module : renderer.modules()) depths.without.emplace_back(module->name());
+  for (const auto& module : renderer.modules())
+    if (module->name() != "grass") depths.without.emplace_back(module->name());
   GLOAM_TRY(renderer.render(world, requests));
   const auto light = renderer.read_linear(all.id), unlit_light = renderer.read_linear(unlit.id);
   if (!light.ok()) return light.error();

@@ -14,6 +14,7 @@
 
 #include "engine/math/packing.h"
 #include "engine/scene/resources.h"
+#include "modules/grass/components.h"
 #include "modules/lights/components.h"
 #include "modules/module_list/module_list.h"
 #include "modules/reflections/components.h"
@@ -336,6 +337,41 @@ TEST_F(Bakes, show_what_reflecting_surfaces_reflect) {
   EXPECT_GT(all.y, 1.0f) << "and the lamp's light on it";
   EXPECT_NEAR(unlit.x, 2.0f, 0.2f);
   EXPECT_LT(unlit.y, 0.02f) << "no lamp's light is among the light without lamps";
+}
+
+TEST_F(Bakes, show_grass_at_rest_equally_in_the_first_and_the_last_capture) {
+  Material earth;
+  earth.metallic = 0.0f;
+  earth.emissive = vec3(0.1f);
+  const dmat4 flat = glm::rotate(at(0, 0, -1), -1.57079632679489661923, dvec3(1, 0, 0));
+  const Entity lawn = scene.draw(scene.mesh(test::quad(2.0f, scene.material(earth))), flat);
+  GrassSurface grass;
+  grass.density = 400.0f;
+  grass.height_m = vec2(0.8f, 0.05f);
+  grass.width_m = 0.02f;
+  world.add(lawn, grass);
+  Light lamp;
+  lamp.intensity = 100.0f;
+  world.create(lamp, WorldTransform{at(0, 3, 3)});
+  for (int i = 0; i < 4; ++i) proxy(vec2(3.0f, 2.0f), at(0, 1, 0));
+  const ReflectionCaptures captures = bake(64);
+  ASSERT_EQ(captures.proxy_entities.size(), 4u);
+  std::size_t covered = 0, higher = 0;
+  for (std::uint32_t x = 0; x < 64; ++x) {
+    for (std::uint32_t y = 46; y < 60; ++y) covered += texel(captures.proxies, 0, x, y).w > 0.3f ? 1 : 0;
+    for (std::uint32_t y = 0; y < 24; ++y) higher += texel(captures.proxies, 0, x, y).w > 0.0f ? 1 : 0;
+  }
+  EXPECT_GT(covered, 600u) << "of 896 texels between 0.12 m and 0.56 m above the ground";
+  EXPECT_EQ(higher, 0u);
+  const std::size_t layer = captures.proxies.layer_halves();
+  const auto first = captures.proxies.texels.begin();
+  for (std::ptrdiff_t i = 1; i < 4; ++i)
+    EXPECT_TRUE(
+        std::equal(first, first + static_cast<std::ptrdiff_t>(layer), first + i * static_cast<std::ptrdiff_t>(layer)))
+        << i;
+  const std::uint64_t before = capture_content(world);
+  world.get<GrassSurface>(lawn).density = 100.0f;
+  EXPECT_NE(capture_content(world), before);
 }
 
 TEST_F(Bakes, leave_the_worlds_captures_as_they_were) {
