@@ -71,6 +71,8 @@ struct Material {
   TextureSlot normal_texture;
   TextureSlot occlusion_texture;
   TextureSlot emissive_texture;
+  /// The file names a roughness or a texture of it; if not, `roughness` is the default. For key gloam.reflectivity.
+  bool names_roughness = true;
   // Set by scene keys:
   bool subsurface = false;     ///< light passes through thin parts
   float extinction_m = -1.0f;  ///< of subsurface: length over which light inside falls to 1/e; < 0: kExtinctionM

@@ -78,9 +78,13 @@ SceneKey reflectivity_key() {
   key.min = 0.0;
   key.max = 1.0;
   key.default_text = "from metallic and roughness";
-  key.meaning = "share of mirror reflection, from 0 (none) to 1 (sharp mirror)";
+  key.meaning =
+      "share of mirror reflection, from 0 (none) to 1; above 0, a material that names neither roughnessFactor nor a "
+      "metallicRoughnessTexture is a mirror: roughness 0, not glTF's default of 1";
   key.set = [](KeyTarget& target, const KeyValue& value) -> Status {
-    material_of(target).reflectivity = static_cast<float>(std::get<double>(value));
+    Material& material = material_of(target);
+    material.reflectivity = static_cast<float>(std::get<double>(value));
+    if (material.reflectivity > 0.0f && !material.names_roughness) material.roughness = 0.0f;
     return {};
   };
   return key;

@@ -97,6 +97,7 @@ Result<Material> read_material(const tinygltf::Material& source) {
         static_cast<float>(unit_number(source.emissiveFactor[static_cast<std::size_t>(i)]) * strength);
   material.metallic = unit_number(pbr.metallicFactor);
   material.roughness = unit_number(pbr.roughnessFactor);
+  material.names_roughness = source.values.contains("roughnessFactor") || pbr.metallicRoughnessTexture.index >= 0;
   material.normal_scale = static_cast<float>(source.normalTexture.scale);
   material.occlusion_strength = unit_number(source.occlusionTexture.strength);
   material.alpha_cutoff = static_cast<float>(std::max(source.alphaCutoff, 0.0));

@@ -131,6 +131,19 @@ TEST(MaterialImport, an_unlit_material_emits_its_base_colour) {
   EXPECT_EQ(material.reflectivity, 0.0f);
 }
 
+TEST(MaterialImport, a_reflective_material_with_a_texture_of_roughness_is_as_rough_as_the_texture) {
+  GltfText gltf;
+  gltf.add("images", data_uri("image/png", test::make_png(1, 1, kRed)));
+  gltf.add("textures", R"({"source": 0})");
+  gltf.add("materials", R"({"pbrMetallicRoughness": {"metallicRoughnessTexture": {"index": 0}},
+      "extras": {"gloam.reflectivity": 0.9}})");
+  Import import;
+  const SceneAssets& assets = assets_of(gltf, import);
+  ASSERT_EQ(assets.materials.size(), 1u);
+  EXPECT_EQ(assets.materials[0].reflectivity, 0.9f);
+  EXPECT_EQ(assets.materials[0].roughness, 1.0f);
+}
+
 TEST(TextureImport, a_texture_read_as_colour_and_as_data_becomes_two) {
   GltfText gltf;
   gltf.add("images", data_uri("image/png", test::make_png(1, 1, kRed)));

@@ -47,6 +47,28 @@ TEST(KeyImport, scene_and_material_keys_are_set) {
   EXPECT_EQ(import.world.resource<SceneEnvironment>().exposure_ev100, -3.0f);
 }
 
+TEST(KeyImport, a_material_that_says_how_much_it_reflects_and_nothing_of_roughness_is_a_mirror) {
+  struct Case {
+    const char* material;
+    float roughness;
+  };
+  const Case cases[] = {
+      {R"({"extras": {"gloam.reflectivity": 0.9}})", 0.0f},
+      {R"({"pbrMetallicRoughness": {"metallicFactor": 0}, "extras": {"gloam.reflectivity": 0.9}})", 0.0f},
+      {R"({"extras": {"gloam.reflectivity": 0}})", 1.0f},
+      {R"({"pbrMetallicRoughness": {"metallicFactor": 1}})", 1.0f},
+      {R"({"pbrMetallicRoughness": {"roughnessFactor": 1}, "extras": {"gloam.reflectivity": 0.9}})", 1.0f},
+      {R"({"pbrMetallicRoughness": {"roughnessFactor": 0.3}, "extras": {"gloam.reflectivity": 0.9}})", 0.3f}};
+  for (const Case& given : cases) {
+    GltfText gltf;
+    gltf.add("materials", given.material);
+    Import import;
+    test::import_text(gltf.text(), import);
+    ASSERT_EQ(import.fault(), "") << given.material;
+    EXPECT_EQ(import.world.resource<SceneAssets>().materials[0].roughness, given.roughness) << given.material;
+  }
+}
+
 TEST(KeyImport, extinction_lengths_default_to_five_millimetres_of_the_file) {
   for (const auto& [scale, length] : {std::pair("1", 0.005f), std::pair("0.01", 0.5f), std::pair("1000", 0.000005f)}) {
     GltfText gltf;
