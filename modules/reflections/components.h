@@ -26,9 +26,13 @@ struct FlameProxy {
   Entity flame = kNoEntity;
 };
 
+/// The tiers that a room pays for; probes are always among them.
+enum class IbrRoomTiers : std::uint8_t { all, ibr_cube, ssr_cube, cube };
+
 /// Room: a box around the node. Proxies whose centre lies in it belong to it.
 struct IbrRoom {
   vec3 size_m = vec3(0.0f);
+  IbrRoomTiers tiers = IbrRoomTiers::all;  ///< of views whose camera has this room as its smallest
 };
 
 /// Heights of the horizontal reflecting surfaces in an IBR room, optional. With it, the room's proxies are reflected at

@@ -19,6 +19,7 @@
 #include "modules/reflections/components.h"
 #include "modules/reflections/debug/measures.h"
 #include "modules/reflections/debug/pick.h"
+#include "modules/reflections/debug/unseen.h"
 #include "modules/reflections/debug/visualizers.h"
 #include "modules/reflections/frame.h"
 #include "modules/reflections/knobs.h"
@@ -31,6 +32,7 @@
 #include "modules/reflections/reference/adapter.h"
 #include "modules/reflections/reflection_passes.h"
 #include "modules/reflections/relighting/capture_factors.h"
+#include "modules/reflections/scene_unit.h"
 
 namespace gloam {
 namespace {
@@ -100,6 +102,10 @@ class ReflectionsModule final : public Module {
                  &IbrProxy::lights));
     registry.add(vec3_key(line("gloam.ibr_room.size", "", "m", "size of the box of an IBR room, centred on the node"),
                           1e-6, 1e6, &IbrRoom::size_m));
+    registry.add(choice_key(line("gloam.ibr_room.tiers", "all", "",
+                                 "tiers of reflections that views from this room have, at most those of knob "
+                                 "reflections.tiers; the smallest room that contains the camera decides"),
+                            {"all", "ibr+cube", "ssr+cube", "cube"}, IbrRoomTiers::all, &IbrRoom::tiers));
     registry.add(
         vec3_key(line("gloam.cube_probe.size", "", "m", "size of the probe's influence box, centred on the node"), 1e-6,
                  1e6, &CubeProbe::size_m));
@@ -109,6 +115,7 @@ class ReflectionsModule final : public Module {
                              &CubeProbe::global));
     registry.add_finish("reflections", &check_light_names);
     registry.add_finish("reflections", &add_and_count_proxies);
+    registry.add_finish("reflections", &keep_estimated_unit);
   }
   void knobs(KnobRegistry& registry) const override { add_reflection_knobs(registry); }
   /// Knobs whose values differ in the model are judged by traced reflections.
@@ -122,12 +129,20 @@ class ReflectionsModule final : public Module {
       references.push_back(traced_reflections(std::string(knob), false, &traced_extras));
     return references;
   }
+  [[nodiscard]] std::vector<std::string> warnings(const World& world) const override { return unseen_captures(world); }
   [[nodiscard]] std::vector<MeasureInfo> measures() const override { return proxy_measures(); }
   [[nodiscard]] std::string idle_knob(const World& world, const RenderView& view, std::string_view knob,
                                       const FrameCounters&) const override {
     return idle_reflection_knob(world, view, knob);
   }
   void add_systems(Schedule& schedule) override { add_proxy_systems(schedule); }
+  void prepare_world(World& world, const KnobRegistry&) const override {
+    auto& set = world.resource<ProxySet>();
+    if (const double unit = scene_unit(world); set.unit != unit) {
+      set.unit = unit;
+      ++set.version;
+    }
+  }
   void prepare_view(World& world, ViewId view, const KnobRegistry& knobs) const override {
     prepare_proxy_view(world, view);
     world.view_resource<ProxyTileSettings>(view) = tile_settings(world, view, knobs);
@@ -160,7 +175,8 @@ class ReflectionsModule final : public Module {
     const std::size_t probes = world.view<const CubeProbe>().size();
     if (materials.mirror == 0 && probes == 0) return {false, "no smooth material and no probe"};
     return {true, count(materials.mirror + materials.rough, " reflective material, ", " reflective materials, ") +
-                      count(world.view<const IbrProxy>().size(), " proxy, ", " proxies, ") +
+                      count(world.view<const IbrProxy>().size(), " proxy", " proxies") +
+                      (materials.mirror == 0 ? " that no smooth material shows, " : ", ") +
                       count(probes, " probe", " probes")};
   }
   [[nodiscard]] std::vector<VisualizerInfo> visualizers() const override {

@@ -24,6 +24,7 @@
 #include "modules/reflections/passes/temporal_accumulation.h"
 #include "modules/reflections/passes/uploads.h"
 #include "modules/reflections/probes/rows.h"
+#include "modules/reflections/proxies/room_tiers.h"
 #include "modules/reflections/proxies/rows.h"
 #include "modules/reflections/recapture/recapture.h"
 #include "modules/reflections/scene_unit.h"
@@ -140,10 +141,10 @@ ReflectionKnobs knobs_of(const FrameBuilder& frame) {
 }  // namespace
 
 void announce_reflections(FrameBuilder& frame, Staging& staging, CaptureFactors& factors) {
-  const ReflectionKnobs knobs = knobs_of(frame);
-  if (knobs.mode == ReflectionKnobs::Mode::off) return;
   const World& world = frame.world();
   const RenderView& view = frame.view();
+  const ReflectionKnobs knobs = in_room(knobs_of(frame), world, view.id);
+  if (knobs.mode == ReflectionKnobs::Mode::off) return;
   const auto* change = world.try_resource<ReflectionOverride>();
   const Reflective seen = strongest_reflection(world.resource<SceneAssets>(), frame.draws());
   if (seen == Reflective::no) return;

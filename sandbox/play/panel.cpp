@@ -8,6 +8,7 @@
 #include "engine/core/text/formatted.h"
 #include "engine/scene/resources.h"
 #include "modules/depth_of_field/components.h"
+#include "modules/module_list/module_list.h"
 #include "sandbox/output/file_io.h"
 #include "sandbox/play/input/orbit_controls.h"
 #include "sandbox/session/drawing/frame_tracing.h"
@@ -25,6 +26,8 @@ PlayPanel::PlayPanel(Session& session, double scale, bool shown)
       visualizers_(session.renderer->visualizers()) {
   const auto& names = session.world.resource<SceneNames>();
   for (const Entity camera : session.info.cameras) cameras_.emplace_back(names.name_of(camera));
+  for (const auto& module : make_all_modules())
+    for (std::string& warning : module->warnings(session.world)) warnings_.push_back(std::move(warning));
 }
 
 Status PlayPanel::open() {
@@ -119,6 +122,7 @@ PanelScene PlayPanel::scene_of(const PlayControls& controls, const ViewSettings&
   return {.cameras = cameras_,
           .camera = shown == cameras.end() ? 0 : static_cast<std::uint32_t>(shown - cameras.begin()) + 1,
           .show_camera = controls.show_camera,
+          .warnings = warnings_,
           .time_s = controls.time_s,
           .paused = controls.paused,
           .pause = controls.pause,

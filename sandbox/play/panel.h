@@ -80,6 +80,7 @@ class PlayPanel {
   LightControls lights_;
   std::vector<PanelLight> shown_lights_;
   std::vector<std::string> cameras_;
+  std::vector<std::string> warnings_;  ///< PanelScene::warnings
   std::vector<std::string> picked_;
   float picked_m_ = 0.0f;  ///< PanelScene::picked_m
   std::string said_;

@@ -77,6 +77,10 @@ void Panel::show_scene(const PanelScene& scene) {
     }
   }
   if (scene.has_camera) show_lens(scene);
+  for (const std::string& warning : scene.warnings) {
+    ImGui::TextWrapped("warning: %s", warning.c_str());
+    remember_widget("warning");
+  }
 }
 
 void Panel::show_lens(const PanelScene& scene) {

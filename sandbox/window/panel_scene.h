@@ -26,6 +26,8 @@ struct PanelScene {
   std::uint32_t camera = 0;  ///< the number of the one that is shown, from 1 on; 0: none of them
   std::function<void(std::uint32_t number)> show_camera;  ///< from 1 on
 
+  std::span<const std::string> warnings = {};  ///< Module::warnings() of all modules for the scene as it was opened
+
   double time_s = 0.0;
   bool paused = false;
   std::function<void(bool paused)> pause;

@@ -51,6 +51,9 @@ bool place_room(Entity entity, const IbrRoom& room, const ReflectingHeights* hei
   for (std::size_t i = 0; i < 3; ++i) placed.to_face[i] = glm::cross(half[(i + 1) % 3], half[(i + 2) % 3]) / volume;
   if (!std::ranges::all_of(placed.to_face, [](const dvec3& v) { return is_finite(v); })) return false;
   placed.floor_m = placed.center.y - std::abs(half[0].y) - std::abs(half[1].y) - std::abs(half[2].y);
+  placed.volume_m3 = 8.0 * std::abs(volume);
+  placed.screen_space = room.tiers == IbrRoomTiers::all || room.tiers == IbrRoomTiers::ssr_cube;
+  placed.proxies = room.tiers == IbrRoomTiers::all || room.tiers == IbrRoomTiers::ibr_cube;
   placed.heights_m.clear();
   if (heights == nullptr) return true;
   const std::size_t count = std::min<std::size_t>(heights->count, heights->heights_m.size());

@@ -36,18 +36,23 @@ struct PlacedRoom {
   /// from the centre to a face.
   std::array<dvec3, 3> to_face{};
   double floor_m = 0.0;           ///< world height of the box's lowest point
+  double volume_m3 = 0.0;         ///< of the box
+  bool screen_space = true;       ///< IbrRoom::tiers has screen space
+  bool proxies = true;            ///< and proxies
   std::vector<double> heights_m;  ///< finite values of ReflectingHeights, ascending; empty: every height ≥ floor_m
   friend bool operator==(const PlacedRoom&, const PlacedRoom&) = default;
 };
 
 /// All proxies and rooms of the world, each sorted by entity index; a world resource written by system ibr_proxies.
+/// `unit` is set before it runs.
 struct ProxySet {
   std::vector<PlacedProxy> proxies;
   std::vector<PlacedRoom> rooms;
   std::uint32_t not_finite = 0;      ///< proxies left out because of NaN or infinity in their size or matrix
   std::uint32_t no_area = 0;         ///< proxies left out because their area is zero
   std::uint32_t unusable_rooms = 0;  ///< rooms left out: NaN, infinity or no volume
-  std::uint64_t version = 0;         ///< changes whenever `proxies` or `rooms` change
+  std::uint64_t version = 0;         ///< changes whenever `proxies`, `rooms` or `unit` change
+  double unit = 1.0;                 ///< scene_unit(): what the lengths of culling/rooms.h are multiples of
 };
 
 enum class ProxyPlacement : std::uint8_t { placed, not_finite, no_area };

@@ -34,34 +34,44 @@ void add_band(const ReceiverBand& band, ReceiverBands& bands) {
 
 }  // namespace
 
-bool contains(const PlacedRoom& room, const dvec3& position) {
+bool contains(const PlacedRoom& room, const dvec3& position, double unit) {
   const dvec3 offset = position - room.center;
   return std::ranges::all_of(room.to_face, [&](const dvec3& to_face) {
-    return std::abs(glm::dot(to_face, offset)) <= 1.0 + kRoomFaceSlack_m * glm::length(to_face);
+    return std::abs(glm::dot(to_face, offset)) <= 1.0 + kRoomFaceSlack * unit * glm::length(to_face);
   });
 }
 
-void choose_rooms(std::span<const PlacedRoom> rooms, const dvec3& camera, std::vector<std::uint32_t>& chosen) {
+void choose_rooms(std::span<const PlacedRoom> rooms, const dvec3& camera, std::vector<std::uint32_t>& chosen,
+                  double unit) {
   chosen.clear();
   for (std::size_t i = 0; i < rooms.size(); ++i)
-    if (contains(rooms[i], camera)) chosen.push_back(static_cast<std::uint32_t>(i));
+    if (contains(rooms[i], camera, unit)) chosen.push_back(static_cast<std::uint32_t>(i));
+}
+
+const PlacedRoom* smallest_room(std::span<const PlacedRoom> rooms, std::span<const std::uint32_t> chosen) {
+  const PlacedRoom* smallest = nullptr;
+  for (const std::uint32_t index : chosen)
+    if (smallest == nullptr || rooms[index].volume_m3 < smallest->volume_m3) smallest = &rooms[index];
+  return smallest;
 }
 
 ReceiverBands receiver_bands(const PlacedProxy& proxy, std::span<const PlacedRoom> rooms,
-                             std::span<const std::uint32_t> chosen, const dvec3& camera) {
+                             std::span<const std::uint32_t> chosen, const dvec3& camera, double unit) {
   constexpr double kNoEnd = std::numeric_limits<double>::infinity();
   ReceiverBands bands;
   if (chosen.empty()) {
-    if (std::ranges::any_of(rooms, [&](const PlacedRoom& room) { return contains(room, proxy.center); })) return bands;
+    if (std::ranges::any_of(rooms, [&](const PlacedRoom& room) { return contains(room, proxy.center, unit); }))
+      return bands;
     const double proxy_bottom = proxy.center.y - std::abs(proxy.half_u.y) - std::abs(proxy.half_v.y);
-    add_band({std::min(proxy_bottom, camera.y) - kOpenExtension_m, kNoEnd}, bands);
+    add_band({std::min(proxy_bottom, camera.y) - kOpenExtension * unit, kNoEnd}, bands);
     return bands;
   }
   for (const std::uint32_t index : chosen) {
     const PlacedRoom& room = rooms[index];
-    if (!contains(room, proxy.center)) continue;
-    if (room.heights_m.empty()) add_band({room.floor_m - kReceiverSlack_m, kNoEnd}, bands);
-    for (const double height : room.heights_m) add_band({height - kReceiverSlack_m, height + kReceiverSlack_m}, bands);
+    if (!contains(room, proxy.center, unit)) continue;
+    const double slack = kReceiverSlack * unit;
+    if (room.heights_m.empty()) add_band({room.floor_m - slack, kNoEnd}, bands);
+    for (const double height : room.heights_m) add_band({height - slack, height + slack}, bands);
   }
   return bands;
 }

@@ -46,7 +46,7 @@ struct TileJob {
 
  private:
   [[nodiscard]] ProxyOutcome place(const PlacedProxy& proxy, std::uint64_t& tile_set) const {
-    const ReceiverBands bands = receiver_bands(proxy, set.rooms, out.rooms, viewer.eye);
+    const ReceiverBands bands = receiver_bands(proxy, set.rooms, out.rooms, viewer.eye, set.unit);
     if (bands.count == 0) return ProxyOutcome::other_room;
     bool faces = false;
     double lowest = bands.bands[0].lowest_m;
@@ -60,7 +60,7 @@ struct TileJob {
     if (tile_set == 0) return ProxyOutcome::out_of_view;
     if (out.settings.bound == ProxyTileBound::exact) return ProxyOutcome::kept;
     // Culling stays exact, so the two bounds differ in the tiles alone.
-    tile_set = tiles_of(paper_screen_range(proxy, lowest + kReceiverSlack_m, viewer), out.columns, out.tiles);
+    tile_set = tiles_of(paper_screen_range(proxy, lowest + kReceiverSlack * set.unit, viewer), out.columns, out.tiles);
     return tile_set == 0 ? ProxyOutcome::out_of_view : ProxyOutcome::kept;
   }
 };
@@ -91,7 +91,7 @@ void build_proxy_tiles(const ProxySet& set, const ViewProjection& view, const Pr
   tiles.columns = settings.columns != 0 ? settings.columns : (view.width + 1) / 2;
   tiles.outcomes.resize(set.proxies.size());
   tiles.tile_sets.resize(set.proxies.size());
-  choose_rooms(set.rooms, view.position, tiles.rooms);
+  choose_rooms(set.rooms, view.position, tiles.rooms, set.unit);
   const TileJob job{set, reflection_viewer(view), tiles};
   executor.parallel_for(set.proxies.size(), kProxyGrain, [&job](JobRange range) { job.run(range); });
   build_masks(tiles);

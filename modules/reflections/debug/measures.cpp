@@ -7,6 +7,8 @@
 
 #include "engine/ecs/view.h"
 #include "modules/reflections/components.h"
+#include "modules/reflections/culling/placed.h"
+#include "modules/reflections/culling/rooms.h"
 #include "modules/reflections/culling/tiles.h"
 #include "modules/reflections/knobs.h"
 
@@ -41,6 +43,8 @@ std::string idle_reflection_knob(const World& world, const RenderView& view, std
   if (world.view<const IbrProxy>().size() == 0 && world.view<const FlameProxy>().size() == 0)
     return "the scene has no reflection proxy";
   const ProxyTiles* tiles = world.try_view_resource<ProxyTiles>(view.id);
+  const PlacedRoom* room = tiles == nullptr ? nullptr : smallest_room(world.resource<ProxySet>().rooms, tiles->rooms);
+  if (room != nullptr && !room->proxies) return "gloam.ibr_room.tiers of the camera's room leaves proxies out";
   if (tiles != nullptr && tiles->proxies.empty()) return "no reflection proxy is in view";
   if (tiles != nullptr && knob == kProxyLayers.name && tiles->proxies.size() == 1) return "one proxy is in view";
   return {};

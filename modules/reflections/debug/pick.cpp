@@ -14,6 +14,7 @@
 #include "engine/render/readback/geometry_picture.h"
 #include "engine/scene/resources.h"
 #include "modules/reflections/culling/placed.h"
+#include "modules/reflections/culling/rooms.h"
 #include "modules/reflections/culling/tiles.h"
 #include "modules/reflections/frame.h"
 
@@ -33,14 +34,23 @@ struct MetProxy {
   double distance_m = 0.0;
 };
 
-/// The nearest kept proxy whose front a ray meets.
-std::optional<MetProxy> nearest_proxy(const ProxySet& set, const ProxyTiles& tiles, const dvec3& origin,
-                                      const dvec3& direction) {
+/// Whether the view shows the proxy in receivers at this world height.
+bool serves_height(const ProxySet& set, const ProxyTiles& tiles, const PlacedProxy& proxy, const dvec3& camera,
+                   double height) {
+  return std::ranges::any_of(receiver_bands(proxy, set.rooms, tiles.rooms, camera, set.unit).all(),
+                             [&](const ReceiverBand& b) { return b.lowest_m <= height && height <= b.highest_m; });
+}
+
+/// The nearest proxy whose front a ray meets, of those that have an image, are not dark and serve the origin's height.
+std::optional<MetProxy> nearest_proxy(const ReflectionPlan& plan, const ProxySet& set, const ProxyTiles& tiles,
+                                      const dvec3& camera, const dvec3& origin, const dvec3& direction) {
   std::optional<MetProxy> nearest;
-  for (const std::uint32_t index : tiles.proxies) {
+  for (std::size_t row = 0; row < plan.proxies.size(); ++row) {
+    const std::size_t index = plan.knobs.naive ? row : tiles.proxies[row];
     const PlacedProxy& proxy = set.proxies[index];
     const double facing = glm::dot(proxy.normal, direction);
-    if (facing >= 0.0) continue;
+    if (facing >= 0.0 || !(plan.proxies[row].dim > 0.0f)) continue;
+    if (!serves_height(set, tiles, proxy, camera, origin.y)) continue;
     const double distance_m = glm::dot(proxy.normal, proxy.center - origin) / facing;
     if (distance_m <= 0.0 || (nearest && nearest->distance_m <= distance_m)) continue;
     const dvec3 offset = origin + direction * distance_m - proxy.center;
@@ -51,14 +61,15 @@ std::optional<MetProxy> nearest_proxy(const ProxySet& set, const ProxyTiles& til
   return nearest;
 }
 
-std::string proxy_line(const FrameBuilder& frame, const PickedPixel& pixel) {
+std::string proxy_line(const FrameBuilder& frame, const ReflectionPlan& plan, const PickedPixel& pixel) {
+  if (!plan.knobs.proxies) return "proxy: the view has no proxies";
   const RenderView& view = frame.view();
   const dvec3 position = view.position + surface_position(view, pixel.x, pixel.y, pixel.depth);
   const dvec3 seen =
       glm::normalize(view.camera.orthographic ? dvec3(-view_constants(view).view_row_z) : position - view.position);
   const auto& set = frame.world().resource<ProxySet>();
-  const auto met =
-      nearest_proxy(set, frame.world().view_resource<ProxyTiles>(view.id), position, dvec3(seen.x, -seen.y, seen.z));
+  const auto met = nearest_proxy(plan, set, frame.world().view_resource<ProxyTiles>(view.id), view.position, position,
+                                 dvec3(seen.x, -seen.y, seen.z));
   if (!met) return "proxy: none is met";
   const Entity entity = set.proxies[met->index].entity;
   const std::string_view name = frame.world().resource<SceneNames>().name_of(entity);
@@ -89,7 +100,8 @@ std::vector<std::string> reflection_pick_lines(const FrameBuilder& frame, const 
   const std::size_t at = std::size_t{texel.y} * c.size.x + texel.x;
   const auto surface = copies.item<std::uint32_t>(kSurfaceCopy, at);
   if ((surface >> 8 & 0xFFu) == 0) return {std::string("reflection: ") + beyond + " (rough, tilted or not reflective)"};
-  const double distance_m = static_cast<double>((surface >> 16 & 0xFFu) + 256 * (surface >> 24)) / 100.0;
+  const double hundredths = static_cast<double>((surface >> 16 & 0xFFu) + 256 * (surface >> 24));
+  const double distance_m = 0.01 * hundredths * static_cast<double>(c.unit_m);
   if (plan->planar)
     return {
         formatted("reflection: mirrored at the height %.3f m, hit after %.2f m", plan->planar->height_m, distance_m)};
@@ -102,7 +114,7 @@ std::vector<std::string> reflection_pick_lines(const FrameBuilder& frame, const 
   std::string text =
       formatted("reflection: %s, confidence of screen space %.2f, of screen space and proxies %.2f, hit after %.2f m",
                 tier, static_cast<double>(screen), static_cast<double>(covered), distance_m);
-  return {text, proxy_line(frame, pixel)};
+  return {text, proxy_line(frame, *plan, pixel)};
 }
 
 }  // namespace gloam

@@ -75,7 +75,8 @@ void add_reflection_view_pass(FrameBuilder& frame) {
   bind_rows<std::uint32_t>(pass, "proxy_masks", frame.world().view_resource<ProxyTiles>(frame.view().id).masks);
   bind_rows<shaders::ProbeRow>(pass, "probe_rows", probes.rows);
   const std::uint32_t tiers = (drawn->hits.color ? 1u : 0u) | (plan->mirror && plan->knobs.proxies ? 2u : 0u) |
-                              (probes.rows.empty() ? 0u : 4u) | (drawn->mirrors ? 8u : 0u);
+                              (probes.rows.empty() ? 0u : 4u) | (plan->knobs.naive ? 8u : 0u) |
+                              (drawn->mirrors ? 16u : 0u);
   pass.push(tiers);
   add_visualizer_targets(frame, pass, *shown, gpu::Format::rgba16_float);
   pass.draw_triangle();

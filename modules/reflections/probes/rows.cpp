@@ -83,7 +83,7 @@ std::vector<shaders::ProbeRow> probe_rows(const World& world, const RenderView& 
     next.volume = std::numeric_limits<double>::infinity();
     if (!probe->global) {
       PlacedRoom box;  // a room's box is described in the same way
-      if (!place_room(entity, {probe->size_m}, nullptr, transform->matrix, box)) continue;
+      if (!place_room(entity, {.size_m = probe->size_m}, nullptr, transform->matrix, box)) continue;
       next.row.to_x = vec3(box.to_face[0]);
       next.row.to_y = vec3(box.to_face[1]);
       next.row.to_z = vec3(box.to_face[2]);

@@ -117,7 +117,7 @@ std::vector<shaders::ProxyRow> proxy_rows(const World& world, const RenderView& 
   for (std::size_t i = 0; i < count; ++i) {
     const PlacedProxy& proxy = set.proxies[all ? i : tiles.proxies[i]];
     shaders::ProxyRow row = placed_row(proxy, view, captures.proxies.side);
-    const ReceiverBands bands = receiver_bands(proxy, set.rooms, tiles.rooms, view.position);
+    const ReceiverBands bands = receiver_bands(proxy, set.rooms, tiles.rooms, view.position, set.unit);
     set_heights(row, bands, view.position.y);
     row.room = bands.count > 0 ? 1 : 0;
     if (const auto layer = layer_of(captures, proxy.entity)) set_light(row, world, captures, factors, *layer, cells);

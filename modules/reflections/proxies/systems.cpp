@@ -20,6 +20,7 @@ bool by_entity(const auto& a, const auto& b) { return a.entity.index < b.entity.
 
 void ibr_proxies_system(IbrProxies proxies, IbrRooms rooms, Resource<ProxySet> set) {
   ProxySet found;
+  found.unit = set->unit;
   proxies.each([&](Entity entity, const IbrProxy& proxy, const WorldTransform& transform) {
     PlacedProxy placed;
     switch (place_proxy(entity, proxy, transform.matrix, placed)) {

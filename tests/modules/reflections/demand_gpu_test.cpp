@@ -140,6 +140,38 @@ TEST_F(ReflectionDemand, each_tier_is_drawn_only_if_it_is_wanted) {
   }
 }
 
+TEST_F(ReflectionDemand, the_smallest_room_of_the_camera_leaves_tiers_out) {
+  proxy_and_probe();
+  floor(1.0f, 0.1f);
+  const auto room = [&](const dvec3& center, float side, IbrRoomTiers tiers) {
+    return world.create(IbrRoom{.size_m = vec3(side), .tiers = tiers},
+                        WorldTransform{glm::translate(dmat4(1.0), center)});
+  };
+  room(dvec3(0.0), 40.0f, IbrRoomTiers::all);
+  room({0.0, 0.0, 50.0}, 4.0f, IbrRoomTiers::cube);  // the camera is elsewhere
+  const Entity small = room({0.0, 1.5, 4.0}, 20.0f, IbrRoomTiers::all);
+  struct Case {
+    IbrRoomTiers tiers;
+    const char* knob;
+    bool screen_space, proxies;
+  };
+  const Case cases[] = {
+      {IbrRoomTiers::all, "all", true, true},        {IbrRoomTiers::ibr_cube, "all", false, true},
+      {IbrRoomTiers::ssr_cube, "all", true, false},  {IbrRoomTiers::cube, "all", false, false},
+      {IbrRoomTiers::all, "cube", false, false},     {IbrRoomTiers::ibr_cube, "ssr+cube", false, false},
+      {IbrRoomTiers::cube, "ibr+cube", false, false}};
+  for (const Case& given : cases) {
+    world.get<IbrRoom>(small).tiers = given.tiers;
+    ASSERT_TRUE(renderer->knobs().set("reflections.tiers", given.knob).ok());
+    frames();
+    const auto what = "room " + std::to_string(static_cast<int>(given.tiers)) + ", knob " + given.knob;
+    EXPECT_EQ(passes.contains("reflection_screen_space"), given.screen_space) << what;
+    EXPECT_EQ(passes.contains("reflection_surfaces"), given.screen_space || given.proxies) << what;
+    EXPECT_EQ(passes.contains("reflection_blur_x"), given.screen_space || given.proxies) << what;
+    EXPECT_TRUE(passes.contains("reflection_composite")) << what;
+  }
+}
+
 TEST_F(ReflectionDemand, what_disappears_gives_its_memory_back) {
   proxy_and_probe();
   const Entity mirror = floor(1.0f, 0.1f);

@@ -3,9 +3,11 @@
 """Tests the output of `inspect` for built-in scenes and for a file."""
 import copy
 import json
+import math
 
 from gltf_scene import TRIANGLE
 from program_case import ProgramCase, main
+from scene_file import SceneFile, turned
 
 COUNTS = ("nodes", "meshes", "triangles", "instances", "drawn_triangles", "materials", "textures", "images", "lights", "skins")
 class Inspect(ProgramCase):
@@ -57,6 +59,32 @@ class Inspect(ProgramCase):
         particles = next(module for module in told["modules"] if module["name"] == "particles")
         self.assertTrue(particles["demanded"])
         self.assertEqual(particles["reason"], "5 emitters")
+
+    def test_proxies_and_probes_that_no_surface_can_show_are_named(self):
+        def told(**floor):
+            scene = SceneFile()
+            scene.quad(3.0, scene.material(**floor))
+            up, down = [0, 0, 0, 1], turned(0, math.pi / 2)
+            for name, at, rotation, keys in (("wall", (0, 1, -3), up, {"gloam.ibr_proxy.size": [2, 2]}),
+                                             ("behind", (0, 1, 4), up, {"gloam.ibr_proxy.size": [2, 2]}),
+                                             ("cellar", (0, -2, 0), down, {"gloam.ibr_proxy.size": [2, 2]}),
+                                             ("hall", (0, 1, 0), up, {"gloam.cube_probe.size": [4, 4, 4]}),
+                                             ("yard", (9, 1, 0), up, {"gloam.cube_probe.size": [4, 4, 4]})):
+                scene.nodes.append({"name": name, "translation": list(at), "rotation": list(rotation), "extras": keys})
+            scene.write(self.folder / "hall.gltf")
+            json_warnings, text = self.inspect("hall.gltf")["warnings"], self.expect(0, "inspect", "hall.gltf").stdout
+            for warning in json_warnings:
+                self.assertIn("warning: " + warning + "\n", text)
+            return json_warnings
+        far = "no surface shows 1 probe: yard, because no reflective surface reaches into its box"
+        mirror = told(roughness=0.0, **{"gloam.reflectivity": 0.9})
+        self.assertEqual(mirror, ["no surface shows 2 reflection proxies: behind, cellar, because it faces away from or lies below "
+                                  "every smooth surface that faces up", far])
+        rough = told(roughness=1.0, **{"gloam.reflectivity": 0.9})
+        self.assertEqual(rough, ["no surface shows 3 reflection proxies: wall, behind, cellar, because the scene has no smooth "
+                                 "material", far])
+        none = told(**{"gloam.reflectivity": 0.0})
+        self.assertEqual(none[1:], ["no surface shows 2 probes: hall, yard, because the scene has no reflective material"])
 
     def test_a_file_is_told_like_a_built_in_scene(self):
         (self.folder / "leaf.gltf").write_text(json.dumps(TRIANGLE))

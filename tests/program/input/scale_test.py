@@ -136,6 +136,38 @@ def turned_about(axis, angle):
     return change
 
 
+def hall(named=True, metal=False):
+    """A mirror floor with posts and panels of light, before a wall with a proxy, in a room with a probe. named: the floor's
+    roughness."""
+    scene = SceneFile(sky=(0.3, 0.4, 0.6), exposure=1.5)
+    mirror = scene.material((0.9, 0.7, 0.3) if metal else (0.03, 0.03, 0.03), 0.0, 1.0 if metal else 0.0, **{"gloam.reflectivity": 1.0})
+    if not named:
+        del scene.materials[mirror]["pbrMetallicRoughness"]["roughnessFactor"]
+    wall, gray = scene.material((0.7, 0.3, 0.2)), scene.material()
+    scene.quad(4.0, mirror)
+    scene.box((3.0, 1.5, 0.05), wall, at=(0.0, 1.5, -3.0))
+    for i, x in enumerate((-1.5, -0.5, 0.5, 1.5)):
+        scene.box((0.06, 0.8, 0.06), gray, at=(x, 0.8, -1.0 - 0.3 * i))
+    for i, color in enumerate(((1.0, 0.2, 0.1), (0.1, 1.0, 0.2), (0.2, 0.4, 1.0))):
+        panel = scene.material((0.0, 0.0, 0.0))
+        scene.materials[panel]["emissiveFactor"] = list(color)
+        scene.box((0.4, 0.25, 0.03), panel, at=(-1.8 + 1.8 * i, 1.2 + 0.3 * i, -2.5))
+    scene.light("point", at=(0.2, 2.6, 0.9), intensity=60, range=12.0)
+    extras = ({"gloam.ibr_proxy.size": [6.0, 3.0]}, {"gloam.ibr_room.size": [9.0, 5.0, 9.0]},
+              {"gloam.cube_probe.size": [9.0, 5.0, 9.0], "gloam.cube_probe.resolution": 64})
+    for at, keys in zip(((0.0, 1.5, -2.9), (0.0, 2.4, 0.0), (0.0, 1.4, 0.3)), extras):
+        scene.nodes.append({"translation": list(at), "rotation": [0, 0, 0, 1], "extras": keys})
+    scene.camera((0.3, 1.3, 3.2), turned(0, -0.3))
+    return scene
+
+
+def hall_with(half, at):
+    """And a cube far away."""
+    scene = hall()
+    scene.box((half, half, half), 1, at=at)
+    return scene
+
+
 class Scale(ProgramCase):
     shares_process = True
 
@@ -198,6 +230,26 @@ class Scale(ProgramCase):
     # Hard case: selftest.moved, selftest.scaled, further.at_100_km, further.at_1000_km
     def test_proxies_and_probes(self):
         self.same(room, "--set", "reflections.tiers=ibr+cube", physics=True)
+
+    def test_mirrors_with_all_tiers_without_the_key_of_scale(self):
+        first = self.picture("first", hall())
+        for name, scene, how in (*((f"scaled{scale}", hall(), {"scale": scale}) for scale in (0.001, 0.01, 100.0)),
+                                 ("moved", hall(), {"offset": (5e3, 1.25e3, -2.5e3)}), ("tiny", hall_with(1e-4, (50.0, 9.0, 90.0)), {}),
+                                 ("huge", hall_with(1e4, (0.0, 0.0, 1e5)), {}), ("small", hall_with(1e-4, (50.0, 9.0, 90.0)), {"scale": 0.01})):
+            with self.subTest(name):
+                most, mean = first.differences(self.picture(name, scene, **how))
+                self.assertLessEqual(most, 2)
+                self.assertLessEqual(mean, 0.02)
+
+    def test_a_mirror_that_does_not_name_its_roughness_is_one_of_roughness_0(self):
+        for metal in (False, True):
+            with self.subTest(metal=metal):
+                first = self.picture("first", hall(metal=metal))
+                other = self.picture("unnamed", hall(named=False, metal=metal))
+                self.assertEqual(first.differences(other), (0, 0))
+                rough = hall(metal=metal)
+                rough.materials[0]["pbrMetallicRoughness"]["roughnessFactor"] = 1.0
+                self.assertGreater(first.differences(self.picture("rough", rough))[1], 2.0)
 
     # Hard case: selftest.moved, further.at_100_km, further.at_1000_km
     def test_blended_surfaces(self):

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <imgui/imgui.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -208,6 +209,19 @@ TEST_F(PanelTest, keeps_two_settings_and_shows_them_in_turn) {
   EXPECT_EQ(test::knob_text(knobs_, knob.name), before);
   click("show B");
   EXPECT_EQ(test::knob_text(knobs_, knob.name), after);
+}
+
+TEST_F(PanelTest, shows_a_line_for_each_warning_about_the_scene) {
+  const std::vector<std::string> warnings = {"no surface shows 1 probe: hall", "light \"lamp\" lies inside a mesh"};
+  PanelScene scene = {.warnings = warnings};
+  scene_ = &scene;
+  frame();
+  frame();
+  const auto lines = std::ranges::count(panel_.widgets(), "warning", &PanelWidget::name);
+  EXPECT_EQ(lines, 2);
+  scene.warnings = {};
+  frame();
+  EXPECT_EQ(find("warning"), nullptr);
 }
 
 TEST_F(PanelTest, lights_and_scene_pass_on_what_the_user_changes) {

@@ -6,6 +6,7 @@
 
 #include <glm/ext/matrix_transform.hpp>
 #include <limits>
+#include <utility>
 
 namespace gloam {
 namespace {
@@ -91,6 +92,18 @@ TEST(PlacedRooms, have_the_floor_of_their_lowest_corner_and_sorted_finite_height
   ASSERT_TRUE(place_room({3, 1}, room, nullptr, glm::rotate(dmat4(1.0), 1.5707963267948966, dvec3(0, 0, 1)), placed));
   EXPECT_NEAR(placed.floor_m, -1.0, 1e-12) << "the box lies on its side";
   EXPECT_TRUE(placed.heights_m.empty());
+}
+
+TEST(PlacedRooms, have_the_tiers_of_their_key) {
+  const std::pair<IbrRoomTiers, std::pair<bool, bool>> cases[] = {{IbrRoomTiers::all, {true, true}},
+                                                                  {IbrRoomTiers::ibr_cube, {false, true}},
+                                                                  {IbrRoomTiers::ssr_cube, {true, false}},
+                                                                  {IbrRoomTiers::cube, {false, false}}};
+  for (const auto& [tiers, wanted] : cases) {
+    PlacedRoom placed;
+    ASSERT_TRUE(place_room({}, {.size_m = vec3(1.0f), .tiers = tiers}, nullptr, dmat4(1.0), placed));
+    EXPECT_EQ(std::pair(placed.screen_space, placed.proxies), wanted);
+  }
 }
 
 TEST(PlacedRooms, without_volume_or_with_NaN_are_left_out) {

@@ -49,6 +49,19 @@ TEST(IbrRooms, that_contain_the_camera_are_all_chosen) {
   EXPECT_EQ(chosen_by(scene, {15.0, 0.5, 0.0}), (Indices{}));
 }
 
+TEST(IbrRooms, the_smallest_that_contains_the_camera_decides_on_tiers) {
+  test::ProxyScene scene = three_rooms();
+  scene.rooms[0].world_from_node = glm::scale(scene.rooms[0].world_from_node, dvec3(0.9));  // smaller than room 1
+  const std::vector<PlacedRoom> rooms = scene.placed().rooms;
+  const auto smallest_at = [&](double x) { return smallest_room(rooms, chosen_by(scene, {x, 2.0, 0.0})); };
+  EXPECT_EQ(smallest_at(5.0), &rooms[0]);
+  EXPECT_EQ(smallest_at(2.0), &rooms[2]);
+  EXPECT_EQ(smallest_at(9.0), &rooms[0]);
+  EXPECT_EQ(smallest_at(15.0), &rooms[1]);
+  EXPECT_EQ(smallest_at(30.0), nullptr);
+  EXPECT_NEAR(rooms[2].volume_m3, 18.0, 1e-9);
+}
+
 // Hard case: reflections.camera_on_room_face
 TEST(IbrRooms, contain_a_camera_on_their_faces_edges_and_corners) {
   for (const double offset : {0.0, 1e4, 3e6}) {
@@ -95,11 +108,11 @@ TEST(ReceiverBands, begin_at_the_lowest_floor_of_the_shared_rooms) {
     EXPECT_TRUE(std::isinf(bands.bands[0].highest_m));
     return bands.bands[0].lowest_m;
   };
-  EXPECT_NEAR(lowest(2, {9.0, 2.0, 0.0}), 0.0 - kReceiverSlack_m, 1e-12) << "rooms 0 and 1 share it";
-  EXPECT_NEAR(lowest(3, {9.0, 2.0, 0.0}), 1.0 - kReceiverSlack_m, 1e-12) << "only room 1";
-  EXPECT_NEAR(lowest(0, {2.0, 2.0, 0.0}), 0.0 - kReceiverSlack_m, 1e-12) << "the outer room reaches lower";
-  EXPECT_NEAR(lowest(4, {50.0, -7.0, 0.0}), -7.0 - kOpenExtension_m, 1e-12) << "the eye is lower than the proxy";
-  EXPECT_NEAR(lowest(4, {50.0, 9.0, 0.0}), 1.5 - kOpenExtension_m, 1e-12);
+  EXPECT_NEAR(lowest(2, {9.0, 2.0, 0.0}), 0.0 - kReceiverSlack, 1e-12) << "rooms 0 and 1 share it";
+  EXPECT_NEAR(lowest(3, {9.0, 2.0, 0.0}), 1.0 - kReceiverSlack, 1e-12) << "only room 1";
+  EXPECT_NEAR(lowest(0, {2.0, 2.0, 0.0}), 0.0 - kReceiverSlack, 1e-12) << "the outer room reaches lower";
+  EXPECT_NEAR(lowest(4, {50.0, -7.0, 0.0}), -7.0 - kOpenExtension, 1e-12) << "the eye is lower than the proxy";
+  EXPECT_NEAR(lowest(4, {50.0, 9.0, 0.0}), 1.5 - kOpenExtension, 1e-12);
 }
 
 // Hard case: reflections.two_floors
@@ -115,15 +128,15 @@ TEST(ReceiverBands, lie_around_the_stated_heights_and_merge) {
   scene.add_room({0.0, 3.0, 0.0}, vec3(6.0f)).heights = ReflectingHeights{{0.0f, 2.5f, 2.51f}, 3};
   ReceiverBands bands = bands_of();
   ASSERT_EQ(bands.count, 2u);
-  EXPECT_NEAR(bands.bands[0].lowest_m, -kReceiverSlack_m, 1e-6);
-  EXPECT_NEAR(bands.bands[0].highest_m, kReceiverSlack_m, 1e-6);
-  EXPECT_NEAR(bands.bands[1].lowest_m, 2.5 - kReceiverSlack_m, 1e-6);
-  EXPECT_NEAR(bands.bands[1].highest_m, 2.51 + kReceiverSlack_m, 1e-6);
+  EXPECT_NEAR(bands.bands[0].lowest_m, -kReceiverSlack, 1e-6);
+  EXPECT_NEAR(bands.bands[0].highest_m, kReceiverSlack, 1e-6);
+  EXPECT_NEAR(bands.bands[1].lowest_m, 2.5 - kReceiverSlack, 1e-6);
+  EXPECT_NEAR(bands.bands[1].highest_m, 2.51 + kReceiverSlack, 1e-6);
 
   scene.add_room({0.0, 3.0, 0.0}, vec3(4.0f));  // floor at 1 m, every height above it
   bands = bands_of();
   ASSERT_EQ(bands.count, 2u);
-  EXPECT_NEAR(bands.bands[1].lowest_m, 1.0 - kReceiverSlack_m, 1e-6);
+  EXPECT_NEAR(bands.bands[1].lowest_m, 1.0 - kReceiverSlack, 1e-6);
   EXPECT_TRUE(std::isinf(bands.bands[1].highest_m));
 }
 

@@ -105,6 +105,93 @@ TEST_F(ReflectionViews, work_with_every_set_of_tiers) {
   }
 }
 
+/// A strip that is smooth beside one that is rough, both reflective, with a tilted card and the sky: most tiles of the
+/// reflection images are not drawn. Values must not depend on what earlier frames have left in the device's memory.
+TEST_F(ReflectionViews, show_nothing_of_memory_that_the_frame_has_not_written) {
+  shining_box({0.0, 2.5, -3.0}, vec3(2.0f, 0.5f, 0.1f), {900.0f, 700.0f, 800.0f});
+  Material rough = exact_material(255, 255, 255, 0, 255);
+  rough.roughness = 0.8f;
+  rough.reflectivity = 1.0f;
+  const dmat4 flat = glm::rotate(at(0.0, 0.01, 1.2), -1.57079632679489661923, dvec3(1.0, 0.0, 0.0));
+  scene.draw(scene.mesh(quad(1.2f, scene.material(rough))), flat);
+  rough.roughness = 0.0f;
+  scene.draw(scene.mesh(quad(0.5f, scene.material(rough))), glm::rotate(at(1.2, 0.5, 1.0), -0.7, dvec3(1.0, 0.0, 0.0)));
+  // Frames that fill memory with other values: another mirror all over the picture, seen from elsewhere.
+  const ViewSettings wanted = settings;
+  const auto fill = [&](const dvec3& eye) {
+    settings = look_at(eye, dvec3(0.0), wanted.width, wanted.height);
+    for (const char* tiers : {"all", "ibr+cube", "ssr+cube"}) {
+      set("reflections.tiers", tiers);
+      draw();
+    }
+    settings = wanted;
+  };
+  for (const char* tiers : {"cube", "ssr+cube", "ibr+cube", "all"})
+    for (const char* view : {"reflection_tier", "reflection_confidence", "ibr_tiles", "ibr_layers", "probes"}) {
+      fill({0.0, 3.0, 0.5});
+      set("reflections.tiers", tiers);
+      const std::vector<vec4> first = shown(view);
+      fill({1.0, 0.4, 2.0});
+      set("reflections.tiers", tiers);
+      const std::vector<vec4> second = shown(view);
+      ASSERT_EQ(first.size(), second.size());
+      const GeometryPicture seen = geometry();
+      for (std::size_t i = 0; i < first.size(); ++i) {
+        ASSERT_EQ(first[i], second[i]) << tiers << " " << view << " " << i;
+        if (std::string(view) == "probes" || std::string(view) == "ibr_tiles" || seen.is_sky(i)) continue;
+        const bool mirrors = seen.texel(i).roughness < 0.39f && seen.texel(i).reflectivity > 0.0f;
+        if (mirrors) continue;
+        ASSERT_EQ(vec2(first[i]), vec2(0.0f)) << tiers << " " << view << " " << i;
+      }
+    }
+}
+
+TEST_F(ReflectionViews, work_in_a_mirrored_picture_and_with_every_proxy_tested) {
+  const std::vector<vec4> usual = shown("ibr_layers");
+  set("ibr.loop", "naive");
+  const std::vector<vec4> naive = shown("ibr_layers");
+  for (std::size_t i = 0; i < usual.size(); ++i) ASSERT_EQ(usual[i], naive[i]) << i;
+  set("ibr.loop", "tiles");
+  set("reflections.mode", "planar");
+  for (const char* view : {"ibr_tiles", "ibr_layers"})
+    for (const vec4& value : shown(view)) ASSERT_EQ(value.x, 0.0f) << view;
+}
+
+TEST_F(ReflectionViews, the_view_of_probes_has_a_sphere_at_each_probe_that_mirrors_its_map) {
+  ReflectionCaptures captures = world.resource<ReflectionCaptures>();
+  captures.probes = flat_layers({vec4(7.0f), vec4(0.5f)});
+  captures.version = 2;
+  world.set_resource(captures);
+  const auto spheres = [&] {
+    const std::vector<vec4> light = shown("probes");
+    std::size_t count = 0;
+    const GeometryPicture seen = geometry();
+    for (std::size_t i = 0; i < light.size(); ++i) count += seen.is_sky(i) && light[i].w > 0.0f ? 1 : 0;
+    return count;
+  };
+  settings = look_at({0.0, 0.8, 3.0}, {0.0, 1.2, 0.0}, 96, 64);
+  EXPECT_GT(spheres(), 4u) << "before the sky";
+  EXPECT_LT(spheres(), 400u);
+  shining_box({0.0, 1.0, 1.5}, vec3(0.5f), vec3(0.1f));
+  EXPECT_EQ(spheres(), 0u) << "behind the box";
+}
+
+TEST_F(ReflectionViews, a_proxy_that_serves_no_surface_at_the_height_is_not_picked) {
+  using testing::Contains;
+  using testing::HasSubstr;
+  set("reflections.tiers", "ibr+cube");
+  const IbrRoom room{.size_m = vec3(20.0f)};
+  ReflectingHeights heights;
+  heights.count = 1;
+  const Entity box = world.create(room, heights, WorldTransform{at(0.0, 1.0, 0.0)});
+  const std::uint32_t x = settings.width / 2, y = settings.height - 6;
+  EXPECT_THAT(lines(x, y), Contains(HasSubstr("proxy: wall, met after")));
+  world.get<ReflectingHeights>(box).heights_m[0] = 0.5f;
+  EXPECT_THAT(lines(x, y), Contains("proxy: none is met"));
+  set("reflections.tiers", "ssr+cube");
+  EXPECT_THAT(lines(x, y), testing::Not(Contains(HasSubstr("proxy: wall"))));
+}
+
 TEST_F(ReflectionViews, picked_pixels_name_their_tier) {
   using testing::Contains;
   using testing::HasSubstr;

@@ -223,7 +223,7 @@ TEST_F(ProxyMeeting, heights_are_served_in_each_band_and_nowhere_else) {
     const double world_y = 0.01 * cm + 0.002;
     rays.push_back({vec3(0.0f, static_cast<float>(world_y - 1.0), 0.0f), vec3(0.0f, 1.0f, 0.0f)});
     bool served = false;
-    for (const double height : {-3.0, 0.0, 1.5, 4.0}) served |= std::abs(world_y - height) <= kReceiverSlack_m;
+    for (const double height : {-3.0, 0.0, 1.5, 4.0}) served |= std::abs(world_y - height) <= kReceiverSlack;
     expected.push_back(served);
   }
   const std::vector<KernelHit> hits = meet(std::vector(rays.size(), row), rays);
