@@ -48,6 +48,16 @@ vec3 place_in_probe(ProbeRow probe, vec3 position) {
   return vec3(dot(probe.to_x, offset), dot(probe.to_y, offset), dot(probe.to_z, offset));
 }
 
+// Share of the probe at a point of a surface. A box that ends a little before the surface is that of the room behind
+// it: its share is what it is further out, along the normal. normal: unit length; zero: a point without a surface.
+float facing_share(ProbeRow probe, vec3 position, vec3 normal) {
+  vec3 at = place_in_probe(probe, position);
+  vec3 out_of_surface = vec3(dot(probe.to_x, normal), dot(probe.to_y, normal), dot(probe.to_z, normal));
+  vec3 size = abs(out_of_surface);
+  float longest = max(max(size.x, size.y), max(size.z, 1e-30));
+  return min(probe_share(probe, at), probe_share(probe, at + out_of_surface * (probe.fade / longest)));
+}
+
 // The direction from the probe's centre to the point of its box that a ray from inside meets.
 vec3 parallax_direction(ProbeRow probe, vec3 at, vec3 position, vec3 direction) {
   vec3 along = vec3(dot(probe.to_x, direction), dot(probe.to_y, direction), dot(probe.to_z, direction));
@@ -57,15 +67,15 @@ vec3 parallax_direction(ProbeRow probe, vec3 at, vec3 position, vec3 direction) 
   return position + direction * max(distance_m, 0.0) - probe.center;
 }
 
-// The first two probes that have a share at a point. Others are left out: their share goes to these.
+// The first two probes that have a share at a point of a surface. Others are left out: their share goes to these.
 struct ChosenProbes {
   uvec2 rows;
   vec2 shares;
   float covered;  // share of all probes, 0…1; the rest is the sky's
 };
 
-void consider_probe(inout ChosenProbes chosen, ProbeRow probe, uint row, vec3 position) {
-  float share = probe_share(probe, place_in_probe(probe, position)) * (1.0 - chosen.covered);
+void consider_probe(inout ChosenProbes chosen, ProbeRow probe, uint row, vec3 position, vec3 normal) {
+  float share = facing_share(probe, position, normal) * (1.0 - chosen.covered);
   chosen.covered += share;
   bool is_first = share > 0.0 && chosen.shares.x == 0.0;
   bool is_second = share > 0.0 && !is_first && chosen.shares.y == 0.0;
@@ -76,9 +86,9 @@ void consider_probe(inout ChosenProbes chosen, ProbeRow probe, uint row, vec3 po
 }
 
 #ifndef GLOAM_CHOOSE_PROBES
-ChosenProbes choose_probes(uint count, vec3 position) {
+ChosenProbes choose_probes(uint count, vec3 position, vec3 normal) {
   ChosenProbes chosen = ChosenProbes(uvec2(0u), vec2(0.0), 0.0);
-  for (uint i = 0u; i < count; ++i) consider_probe(chosen, probe_rows[i], i, position);
+  for (uint i = 0u; i < count; ++i) consider_probe(chosen, probe_rows[i], i, position, normal);
   return chosen;
 }
 #else
@@ -91,9 +101,9 @@ vec3 seen_in_probe(uint row, vec3 position, vec3 direction, float roughness) {
   return probe_radiance(probe.layer, probe.emission, probe.factor, probe.global > 0.5 ? direction : toward, roughness);
 }
 
-// Radiance of all probes for a reflected ray. covered: how much of it the probes give, 0…1; the rest is the sky's.
-vec3 probes_radiance(uint count, vec3 position, vec3 direction, float roughness, out float covered) {
-  ChosenProbes chosen = choose_probes(count, position);
+// Radiance of all probes for a reflected ray. normal: facing_share(). covered: how much of it the probes give, 0…1; the rest is the sky's.
+vec3 probes_radiance(uint count, vec3 position, vec3 normal, vec3 direction, float roughness, out float covered) {
+  ChosenProbes chosen = choose_probes(count, position, normal);
   covered = chosen.covered;
   vec3 light = vec3(0.0);
   // Loops, not conditions: devices that are processors run both sides of a condition.
@@ -102,6 +112,11 @@ vec3 probes_radiance(uint count, vec3 position, vec3 direction, float roughness,
   for (bool two = chosen.shares.y > 0.0; two; two = false)
     light += chosen.shares.y * seen_in_probe(chosen.rows.y, position, direction, roughness);
   return light * (covered / max(chosen.shares.x + chosen.shares.y, 1e-6));
+}
+
+// The same at a point without a surface.
+vec3 probes_radiance(uint count, vec3 position, vec3 direction, float roughness, out float covered) {
+  return probes_radiance(count, position, vec3(0.0), direction, roughness, covered);
 }
 
 #endif

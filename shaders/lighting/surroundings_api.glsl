@@ -36,9 +36,9 @@ layout(set = 0, binding = GLOAM_SURROUNDINGS_BINDING + 3, scalar) readonly buffe
   if (kProbes > 6u)                                                                      \
     for (uint i = 6u; i < surroundings.probes; ++i) visit(probe_rows[i], i);
 
-#define GLOAM_CONSIDER(row, index) consider_probe(chosen, row, index, position)
+#define GLOAM_CONSIDER(row, index) consider_probe(chosen, row, index, position, normal)
 #define GLOAM_CHOOSE_PROBES                                         \
-  ChosenProbes choose_probes(uint count, vec3 position) {           \
+  ChosenProbes choose_probes(uint count, vec3 position, vec3 normal) { \
     ChosenProbes chosen = ChosenProbes(uvec2(0u), vec2(0.0), 0.0);  \
     GLOAM_FOR_EACH_PROBE(GLOAM_CONSIDER)                            \
     return chosen;                                                  \
@@ -50,7 +50,7 @@ vec3 far_radiance(ShadingPoint p, vec3 around, float roughness) {
   vec3 light = around;
   if (kProbes != 0u) {
     float covered;
-    light = probes_radiance(surroundings.probes, p.position, reflect(-p.to_eye, p.normal), roughness, covered);
+    light = probes_radiance(surroundings.probes, p.position, p.normal, reflect(-p.to_eye, p.normal), roughness, covered);
     light = light * surroundings.probe_scale + around * (1.0 - covered);
   }
   return light * surroundings.fog_through + surroundings.fog_light;

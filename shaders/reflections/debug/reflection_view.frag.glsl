@@ -76,13 +76,13 @@ uint met_proxies(ivec2 texel, MirrorSurface s) {
 }
 
 // Share of the probes with a box, and of the global probe, at a pixel.
-vec2 probe_shares(vec3 position) {
+vec2 probe_shares(vec3 position, vec3 normal) {
   vec2 shares = vec2(0.0);
   for (uint i = 0u; i < tiles.probes; ++i) {
     ProbeRow probe = probe_rows[i];
     vec3 offset = position - probe.center;
     vec3 at = vec3(dot(probe.to_x, offset), dot(probe.to_y, offset), dot(probe.to_z, offset));
-    float share = probe_share(probe, at) * (1.0 - shares.x - shares.y);
+    float share = facing_share(probe, at, normal) * (1.0 - shares.x - shares.y);
     shares += probe.global > 0.5 ? vec2(0.0, share) : vec2(share, 0.0);
   }
   return shares;
@@ -127,8 +127,8 @@ void show_probes(ivec2 pixel, float depth, vec3 position) {
   vec3 light = vec3(0.0), sphere = vec3(0.0);
   float covered = 0.0;
   if (has_probes && surface)
-    light =
-        probes_radiance(tiles.probes, position, reflect(-normalize(to_viewer(view, position)), normal), 0.0, covered);
+    light = probes_radiance(tiles.probes, position, normal, reflect(-normalize(to_viewer(view, position)), normal), 0.0,
+                            covered);
   // A point of the pixel's ray, for the sky, too.
   vec3 on_ray = view_ray(view, vec2(pixel)), ray = -normalize(to_viewer(view, on_ray));
   vec3 eye = view.orthographic != 0u ? on_ray - ray * view_depth(view, on_ray) : vec3(0.0);
@@ -144,8 +144,8 @@ void main() {
   float depth = texelFetch(depth_image, pixel, 0).r;
   vec4 material = depth > 0.0 ? texelFetch(material_image, pixel, 0) : vec4(0.0);
   vec3 position = relative_position(view, vec2(pixel), max(depth, 1e-30));
-  float up = depth > 0.0 ? unpack_normal(texelFetch(normal_image, pixel, 0).y).y : 0.0;
-  float rise = normalize(to_viewer(view, position)).y;
+  uvec2 normals = depth > 0.0 ? texelFetch(normal_image, pixel, 0).xy : uvec2(0u);
+  float up = depth > 0.0 ? unpack_normal(normals.y).y : 0.0, rise = normalize(to_viewer(view, position)).y;
   bool reflects = material.w > 0.0;
   // Images of tiers hold values only in tiles with a mirror surface, and the picture shows them only at its pixels.
   bool mirror_here = (tiers & 16u) != 0u && mirror_share(up, rise, material.x, material.w) > 0.0;
@@ -153,7 +153,7 @@ void main() {
   bool mirrors = mirror_here && (tiers & 3u) != 0u && s.share > 0.0;
   vec4 color = mirrors ? texelFetch(color_image, texel, 0) : vec4(0.0);
   float screen = mirrors && (tiers & 1u) != 0u ? texelFetch(ssr_color, texel, 0).a * s.share : 0.0;
-  vec2 shares = reflects && (tiers & 4u) != 0u ? probe_shares(position) : vec2(0.0);
+  vec2 shares = reflects && (tiers & 4u) != 0u ? probe_shares(position, unpack_normal(normals.x)) : vec2(0.0);
   out_named = vec4(0.0);
   if (kShown == 0u) {
     float mirrored = min(color.a, 1.0), unmirrored = 1.0 - mirrored;

@@ -52,16 +52,16 @@ struct ProbeMean {
   float covered;
 };
 
-void add_mean(inout ProbeMean mean, ProbeRow probe, vec3 position) {
-  float share = probe_share(probe, place_in_probe(probe, position)) * (1.0 - mean.covered);
+void add_mean(inout ProbeMean mean, ProbeRow probe, vec3 position, vec3 normal) {
+  float share = facing_share(probe, position, normal) * (1.0 - mean.covered);
   mean.covered += share;
   mean.above += share * probe.above.rgb;
   mean.below += share * probe.below.rgb;
 }
 
-ProbeMean probe_mean(vec3 position) {
+ProbeMean probe_mean(vec3 position, vec3 normal) {
   ProbeMean mean = ProbeMean(vec3(0.0), vec3(0.0), 0.0);
-#define GLOAM_ADD_MEAN(row, index) add_mean(mean, row, position)
+#define GLOAM_ADD_MEAN(row, index) add_mean(mean, row, position, normal)
   GLOAM_FOR_EACH_PROBE(GLOAM_ADD_MEAN)
   return mean;
 }
@@ -77,7 +77,7 @@ vec3 weakly_mirrored(ivec2 pixel, float depth) {
   if (kProbes == 0u) return around * surroundings.fog_through + surroundings.fog_light;
   float share = about_share(clamp(dot(p.normal, p.to_eye), 0.0, 1.0)) * material.w;
   float details = clamp((share - kFaint) / (kClear - kFaint), 0.0, 1.0);
-  ProbeMean mean = probe_mean(p.position);
+  ProbeMean mean = probe_mean(p.position, p.normal);
   vec3 light = mix(mean.below, mean.above, 0.5 + 0.5 * reflect(-p.to_eye, p.normal).y);
   light = light * surroundings.probe_scale + around * (1.0 - mean.covered);
   light = light * surroundings.fog_through + surroundings.fog_light;

@@ -192,6 +192,51 @@ TEST_F(ReflectionViews, a_proxy_that_serves_no_surface_at_the_height_is_not_pick
   EXPECT_THAT(lines(x, y), testing::Not(Contains(HasSubstr("proxy: wall"))));
 }
 
+/// A mirror with two sides between two storeys, whose probes reach a little beyond it.
+class MirrorBetweenStoreys : public ReflectionFrames {
+ protected:
+  void SetUp() override {
+    ReflectionFrames::SetUp();
+    if (IsSkipped()) return;
+    sky({0.0f, 0.0f, 5.0f});
+    Material mirror = exact_material(255, 255, 255, 0, 255);
+    mirror.roughness = 0.0f;
+    mirror.reflectivity = 1.0f;
+    mirror.double_sided = true;
+    const dmat4 flat = glm::rotate(at(0.0, 3.0, 0.0), -1.57079632679489661923, dvec3(1.0, 0.0, 0.0));
+    scene.draw(scene.mesh(quad(4.0f, scene.material(mirror))), flat);
+    probe({8.4f, 3.4f, 8.4f}, {0.0, 1.5, 0.0});
+    probe({8.2f, 3.4f, 8.2f}, {0.0, 4.5, 0.0});
+    capture(world, {}, {vec4(0.0f, 3.0f, 0.0f, 1.0f), vec4(3.0f, 0.0f, 0.0f, 1.0f)});
+  }
+  /// Sum over the middle of the picture, and that of the view of probes.
+  [[nodiscard]] std::pair<vec3, vec3> middle_from(const dvec3& eye, const dvec3& target) {
+    settings = look_at(eye, target, 96, 64);
+    const LinearPicture drawn = shot();
+    const std::vector<vec4> probes = shown("probes");
+    vec3 sum(0.0f), mapped(0.0f);
+    for (std::uint32_t y = 28; y < 36; ++y)
+      for (std::uint32_t x = 40; x < 56; ++x) {
+        sum += vec3(pixel(drawn, x, y));
+        mapped += vec3(probes[std::size_t{y} * settings.width + x]);
+      }
+    return {sum, mapped};
+  }
+};
+
+TEST_F(MirrorBetweenStoreys, shows_on_each_side_the_storey_of_that_side) {
+  for (const auto& [sum, mapped] :
+       {middle_from({0.3, 1.2, 1.5}, {0.0, 3.0, 0.0}), middle_from({0.3, 1.2, 3.0}, {0, 3, 0})}) {
+    EXPECT_GT(sum.y, 100.0f) << "from below, the lower storey";
+    EXPECT_EQ(sum.x, 0.0f);
+    EXPECT_EQ(mapped.x, 0.0f);
+  }
+  const auto [sum, mapped] = middle_from({0.3, 4.6, 3.0}, {0.0, 3.0, 0.0});
+  EXPECT_GT(sum.x, 100.0f) << "from above, the upper storey";
+  EXPECT_EQ(sum.y, 0.0f);
+  EXPECT_EQ(mapped.y, 0.0f);
+}
+
 TEST_F(ReflectionViews, picked_pixels_name_their_tier) {
   using testing::Contains;
   using testing::HasSubstr;
