@@ -46,10 +46,10 @@ struct PanelContent {
 /// Rectangle of a widget in the last frame, in pixels from the picture's upper left corner.
 struct PanelWidget {
   /// "knobs MODULE", KNOB, "KNOB reset", "KNOB CHOICE", "search", "view", "view VISUALIZER", "view argument", "scale",
-  /// "scale auto", "scale NN %", "camera", "camera NAME", "warning", "pause", "exposure auto", "exposure", "lens", "lens here",
-  /// "lens focus", "lens f-number", "pixel", "lights", "LIGHT mute", "LIGHT solo", "LIGHT intensity", "keep A", "show
-  /// A", "keep B", "show B", "save config", "copy command", "budget section", "budget", "budget EFFECT", "lock KNOB",
-  /// "wipe" or "wipe line"
+  /// "scale auto", "scale NN %", "camera", "camera NAME", "warning", "pause", "exposure auto", "exposure", "lens",
+  /// "lens here", "lens focus", "lens f-number", "pixel", "lights", "LIGHT mute", "LIGHT solo", "LIGHT intensity",
+  /// "keep A", "show A", "keep B", "show B", "save config", "copy command", "budget section", "budget", "budget
+  /// EFFECT", "lock KNOB", "wipe" or "wipe line"
   std::string name;
   float left = 0.0f;
   float top = 0.0f;
