@@ -26,6 +26,7 @@
 #include "modules/reflections/materials.h"
 #include "modules/reflections/planar/mirror.h"
 #include "modules/reflections/planar/patches.h"
+#include "modules/reflections/proxies/room_tiers.h"
 #include "modules/reflections/proxies/rows.h"
 #include "modules/reflections/proxies/systems.h"
 #include "modules/reflections/recapture/recapture.h"
@@ -183,12 +184,14 @@ class ReflectionsModule final : public Module {
     return reflection_visualizers(&traced_extras);
   }
   void pipelines(const KnobRegistry& knobs, const gpu::DeviceInfo& device, PipelineList& list) const override {
-    list_reflection_pipelines(reflection_knobs(knobs), device.threads_in_turn, last_blended_, last_probes_, list);
+    for (const ReflectionKnobs& wanted : in_all_rooms(reflection_knobs(knobs), last_rooms_))
+      list_reflection_pipelines(wanted, device.threads_in_turn, last_blended_, last_probes_, list);
   }
   void add_passes(FrameBuilder& frame, PassPhase phase) override {
     if (phase == PassPhase::announce) {
       announce_reflections(frame, staging_, factors_of(frame.world()));
       announce_reflection_view(frame);
+      last_rooms_ = room_tiers_in_use(frame.world());
       const auto* plan = frame.find<ReflectionPlan>();
       note_mirrors(frame, plan != nullptr && plan->mirror);
     }
@@ -249,6 +252,7 @@ class ReflectionsModule final : public Module {
   std::map<std::uint64_t, CaptureFactors> factors_;            ///< by world_id
   std::set<std::pair<std::uint64_t, std::uint32_t>> mirrors_;  ///< world_id and view: its last frame had mirrors
   std::size_t last_probes_ = 0;                                ///< captured probes of the last frame
+  RoomTiersInUse last_rooms_ = 0;                              ///< kinds of rooms in its world
   bool last_blended_ = false;                                  ///< it had a BlendedLayer
 };
 

@@ -55,10 +55,20 @@ struct ReflectingSurfaces {
   bool smooth = false;   ///< there is a smooth surface, facing anywhere
 };
 
-/// Blended surfaces count like opaque ones.
-Reflective reflective_if_opaque(Material material) {
+/// How surfaces of a material reflect. For probes, blended surfaces count like opaque ones.
+struct SurfaceKind {
+  bool shows_probes = false;
+  bool mirrors = false;
+  bool both_sides = false;
+};
+
+SurfaceKind kind_of(Material material) {
+  SurfaceKind kind;
+  kind.mirrors = reflective(material) == Reflective::mirror;
+  kind.both_sides = material.double_sided;
   material.alpha_mode = AlphaMode::opaque;
-  return reflective(material);
+  kind.shows_probes = reflective(material) != Reflective::no;
+  return kind;
 }
 
 /// Box of the triangles that face up; with `both_sides`, or down.
@@ -85,24 +95,24 @@ SurfaceBox box_of(const Primitive& primitive, const dmat4& world_from_mesh) {
 
 ReflectingSurfaces find_surfaces(const World& world, const AnimatedNodes& animated) {
   const auto& assets = world.resource<SceneAssets>();
+  std::vector<SurfaceKind> kinds;
+  for (const Material& material : assets.materials) kinds.push_back(kind_of(material));
+  kinds.push_back(kind_of({}));  // of primitives without a material
   ReflectingSurfaces found;
   world.view<const MeshInstance, const WorldTransform, Maybe<const MorphInstance>>().each(
       [&](Entity entity, const MeshInstance& instance, const WorldTransform& transform, const MorphInstance* morph) {
         if (instance.mesh >= assets.meshes.size()) return;
         const bool moves = instance.skin != kNone || morph != nullptr || animated.moves(entity);
         for (const Primitive& primitive : assets.meshes[instance.mesh].primitives) {
-          const Material material =
-              primitive.material < assets.materials.size() ? assets.materials[primitive.material] : Material{};
-          const Reflective kind = reflective_if_opaque(material);
-          if (kind == Reflective::no) continue;
-          const bool mirrors = reflective(material) == Reflective::mirror;
-          found.smooth |= mirrors;
+          const SurfaceKind kind = kinds[std::min<std::size_t>(primitive.material, assets.materials.size())];
+          if (!kind.shows_probes) continue;
+          found.smooth |= kind.mirrors;
           found.all.anywhere |= moves;
-          found.mirrors.anywhere |= moves && mirrors;
+          found.mirrors.anywhere |= moves && kind.mirrors;
           if (moves) continue;
           found.all.boxes.push_back(box_of(primitive, transform.matrix));
-          if (!mirrors) continue;
-          const SurfaceBox box = box_facing_up(primitive, transform.matrix, material.double_sided);
+          if (!kind.mirrors) continue;
+          const SurfaceBox box = box_facing_up(primitive, transform.matrix, kind.both_sides);
           if (!box.empty()) found.mirrors.boxes.push_back(box);
         }
       });

@@ -30,9 +30,9 @@ double mirror_weight(const Material& material) {
   return static_cast<double>(smooth * reflectivity);
 }
 
-/// Adds the primitive's horizontal triangles, a patch each.
-void add_triangles(const Primitive& primitive, double weight, const dmat4& world_from_mesh, double thickness,
-                   std::vector<MirrorPatch>& triangles) {
+/// Adds the primitive's horizontal triangles that face up, with both_sides also those that face down, a patch each.
+void add_triangles(const Primitive& primitive, double weight, bool both_sides, const dmat4& world_from_mesh,
+                   double thickness, std::vector<MirrorPatch>& triangles) {
   const auto corner = [&](std::size_t i) {
     return dvec3(world_from_mesh * dvec4(dvec3(primitive.positions[primitive.indices[i]]), 1.0));
   };
@@ -40,8 +40,8 @@ void add_triangles(const Primitive& primitive, double weight, const dmat4& world
   for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
     const dvec3 a = corner(i), b = corner(i + 1), c = corner(i + 2);
     const dvec3 normal = side * glm::cross(b - a, c - a);
-    const double length = glm::length(normal);
-    if (!std::isfinite(length) || !(normal.y > kLeastUp * length)) continue;
+    const double length = glm::length(normal), up = both_sides ? std::abs(normal.y) : normal.y;
+    if (!std::isfinite(length) || !(up > kLeastUp * length)) continue;
     MirrorPatch patch{glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)), (a.y + b.y + c.y) / 3.0,
                       0.5 * length * weight};
     if (patch.max.y - patch.min.y <= thickness && patch.mirrors_m2 > 0.0) triangles.push_back(patch);
@@ -73,7 +73,8 @@ std::vector<MirrorPatch> patches_of(const SceneAssets& assets, std::uint32_t mes
   for (const Primitive& primitive : assets.meshes[mesh].primitives) {
     const bool known = primitive.material < assets.materials.size();
     const double weight = mirror_weight(known ? assets.materials[primitive.material] : Material{});
-    if (weight > 0.0) add_triangles(primitive, weight, world_from_mesh, thickness, triangles);
+    const bool both_sides = known && assets.materials[primitive.material].double_sided;
+    if (weight > 0.0) add_triangles(primitive, weight, both_sides, world_from_mesh, thickness, triangles);
   }
   return joined(std::move(triangles), thickness);
 }

@@ -53,6 +53,19 @@ TEST_F(MirrorPlanes, the_largest_horizontal_mirror_in_view_is_chosen) {
   EXPECT_NEAR(chosen()->height_m, 0.1, 1e-6);
 }
 
+TEST_F(MirrorPlanes, the_back_of_a_mirror_with_two_sides_is_one_too) {
+  const dmat4 down =
+      glm::rotate(glm::translate(dmat4(1.0), dvec3(0.0, 0.5, 0.0)), 1.57079632679489661923, dvec3(1, 0, 0));
+  const std::uint32_t single = material(1.0f), both = material(1.0f);
+  maker.assets().materials[both].double_sided = true;
+  maker.draw(maker.mesh(test::quad(3.0f, single)), down);
+  EXPECT_FALSE(chosen());
+  maker.draw(maker.mesh(test::quad(3.0f, both)), down);
+  ASSERT_TRUE(chosen());
+  EXPECT_NEAR(chosen()->height_m, 0.5, 1e-6);
+  EXPECT_FALSE(chosen({0.0, -3.0, 8.0})) << "from below";
+}
+
 TEST_F(MirrorPlanes, surfaces_within_two_centimetres_are_one_plane) {
   const std::uint32_t mirror = material(1.0f);
   floor(2.0, {0.0, 1.0, 0.0}, mirror);
