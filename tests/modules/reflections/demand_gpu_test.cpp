@@ -140,6 +140,7 @@ TEST_F(ReflectionDemand, each_tier_is_drawn_only_if_it_is_wanted) {
   }
 }
 
+// Hard case: reflections.room_tiers
 TEST_F(ReflectionDemand, the_smallest_room_of_the_camera_leaves_tiers_out) {
   proxy_and_probe();
   floor(1.0f, 0.1f);

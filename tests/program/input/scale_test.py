@@ -231,6 +231,7 @@ class Scale(ProgramCase):
     def test_proxies_and_probes(self):
         self.same(room, "--set", "reflections.tiers=ibr+cube", physics=True)
 
+    # Hard case: reflections.scaled
     def test_mirrors_with_all_tiers_without_the_key_of_scale(self):
         first = self.picture("first", hall())
         for name, scene, how in (*((f"scaled{scale}", hall(), {"scale": scale}) for scale in (0.001, 0.01, 100.0)),
@@ -241,6 +242,7 @@ class Scale(ProgramCase):
                 self.assertLessEqual(most, 2)
                 self.assertLessEqual(mean, 0.02)
 
+    # Hard case: reflections.no_roughness
     def test_a_mirror_that_does_not_name_its_roughness_is_one_of_roughness_0(self):
         for metal in (False, True):
             with self.subTest(metal=metal):

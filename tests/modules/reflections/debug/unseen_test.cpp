@@ -98,6 +98,7 @@ TEST_F(UnseenCaptures, are_the_proxies_over_a_rough_floor) {
       ElementsAre("no surface shows 2 reflection proxies: east, west, because the scene has no smooth material"));
 }
 
+// Hard case: reflections.nothing_shows
 TEST_F(UnseenCaptures, are_proxies_behind_or_below_every_mirror) {
   floor(2.0, {}, material(1.0f, 0.0f));
   proxy("before", {0.0, 1.0, -3.0});
@@ -185,6 +186,7 @@ bool some_ray_meets(const PlacedProxy& proxy, const std::vector<PlacedRoom>& roo
   return false;
 }
 
+// Hard case: reflections.nothing_shows
 TEST_F(UnseenCaptures, are_never_among_those_that_some_ray_meets) {
   test::ProxyRandom random(7);
   std::size_t unseen = 0, met = 0;

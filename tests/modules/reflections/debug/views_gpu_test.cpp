@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -107,6 +109,7 @@ TEST_F(ReflectionViews, work_with_every_set_of_tiers) {
 
 /// A strip that is smooth beside one that is rough, both reflective, with a tilted card and the sky: most tiles of the
 /// reflection images are not drawn. Values must not depend on what earlier frames have left in the device's memory.
+// Hard case: reflections.unwritten
 TEST_F(ReflectionViews, show_nothing_of_memory_that_the_frame_has_not_written) {
   shining_box({0.0, 2.5, -3.0}, vec3(2.0f, 0.5f, 0.1f), {900.0f, 700.0f, 800.0f});
   Material rough = exact_material(255, 255, 255, 0, 255);
@@ -192,6 +195,54 @@ TEST_F(ReflectionViews, a_proxy_that_serves_no_surface_at_the_height_is_not_pick
   EXPECT_THAT(lines(x, y), testing::Not(Contains(HasSubstr("proxy: wall"))));
 }
 
+// Hard case: reflections.two_floors
+TEST_F(ReflectionViews, floors_at_several_heights_of_two_rooms_show_and_pick_the_proxies_that_serve_them) {
+  const auto strip = [&](double x, double y) {
+    Material mirror = exact_material(255, 255, 255, 0, 255);
+    mirror.roughness = 0.0f;
+    mirror.reflectivity = 1.0f;
+    const dmat4 flat = glm::rotate(at(x, y, 3.0), -1.57079632679489661923, dvec3(1.0, 0.0, 0.0));
+    scene.draw(scene.mesh(quad(0.5f, scene.material(mirror))), flat);
+  };
+  strip(-1.0, 0.25);
+  strip(0.2, 0.5);
+  strip(1.4, 0.75);
+  ReflectingHeights hall, landing;
+  hall.count = landing.count = 2;
+  hall.heights_m = {0.0f, 0.25f};
+  landing.heights_m = {0.75f, 9.0f};
+  world.create(IbrRoom{.size_m = vec3(20.0f)}, hall, WorldTransform{at(0.0, 1.0, 0.0)});
+  world.create(IbrRoom{.size_m = vec3(16.0f)}, landing, WorldTransform{at(0.0, 1.0, 0.0)});
+  set("reflections.tiers", "ibr+cube");
+  settings = look_at({0.2, 2.0, 6.5}, {0.2, 0.5, 2.8}, 96, 64);
+  const std::vector<vec4> layers = shown("ibr_layers");
+  const GeometryPicture seen = geometry();
+  std::map<int, std::size_t> pixels;  // by height in quarters of a metre
+  std::map<int, uvec2> picked;
+  for (std::uint32_t y = 0; y < settings.height; ++y)
+    for (std::uint32_t x = 0; x < settings.width; ++x) {
+      const std::size_t i = std::size_t{y} * settings.width + x;
+      if (seen.is_sky(i) || seen.texel(i).reflectivity == 0.0f) continue;
+      const double height = seen.position(x, y).y + seen.view.position.y;
+      const int quarter = static_cast<int>(std::lround(4.0 * height));
+      const bool edge = y % 2 == 1;  // texels show the pixels of even rows and columns
+      if (std::abs(height - 0.25 * quarter) > 1e-3 || edge || x % 2 == 1) continue;
+      const dvec3 from = seen.position(x, y) + seen.view.position, ray = seen.position(x, y) * dvec3(1.0, -1.0, 1.0);
+      const double met_at = from.y + ray.y / ray.z * (-4.0 - from.z);  // the wall reaches up to 7 m
+      if (std::abs(met_at - 7.0) < 0.05) continue;
+      const bool meets = ray.z < 0.0 && from.z > -4.0 && met_at < 7.0;
+      ASSERT_EQ(layers[i].x, meets && quarter != 2 ? 1.0f : 0.0f) << x << " " << y << " " << quarter;
+      if (!meets) continue;
+      ++pixels[quarter];
+      picked[quarter] = {x, y};
+    }
+  for (int quarter = 0; quarter < 4; ++quarter) {
+    ASSERT_GT(pixels[quarter], 20u) << quarter;
+    const char* line = quarter == 2 ? "proxy: none is met" : "proxy: wall, met after";
+    EXPECT_THAT(lines(picked[quarter].x, picked[quarter].y), testing::Contains(testing::HasSubstr(line))) << quarter;
+  }
+}
+
 /// A mirror with two sides between two storeys, whose probes reach a little beyond it.
 class MirrorBetweenStoreys : public ReflectionFrames {
  protected:
@@ -224,6 +275,7 @@ class MirrorBetweenStoreys : public ReflectionFrames {
   }
 };
 
+// Hard case: reflections.from_below
 TEST_F(MirrorBetweenStoreys, shows_on_each_side_the_storey_of_that_side) {
   for (const auto& [sum, mapped] :
        {middle_from({0.3, 1.2, 1.5}, {0.0, 3.0, 0.0}), middle_from({0.3, 1.2, 3.0}, {0, 3, 0})}) {

@@ -47,6 +47,7 @@ TEST(KeyImport, scene_and_material_keys_are_set) {
   EXPECT_EQ(import.world.resource<SceneEnvironment>().exposure_ev100, -3.0f);
 }
 
+// Hard case: reflections.no_roughness
 TEST(KeyImport, a_material_that_says_how_much_it_reflects_and_nothing_of_roughness_is_a_mirror) {
   struct Case {
     const char* material;
