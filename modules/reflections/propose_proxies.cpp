@@ -16,6 +16,7 @@
 #include "modules/reflections/fitting/region_quads.h"
 #include "modules/reflections/fitting/scene_surfaces.h"
 #include "modules/reflections/module.h"
+#include "modules/reflections/scene_unit.h"
 
 namespace gloam {
 namespace {
@@ -30,7 +31,7 @@ constexpr std::uint32_t kMostPixelsACamera = 8192;
 /// Fire proxies stand for flames, which have no triangles.
 ProxySet existing_proxies(const World& world) {
   ProxySet set;
-  const double metres = metres_per_unit(world);
+  const double metres = 1.0 / scene_unit(world);
   world.view<const IbrProxy, const WorldTransform>().each(
       [&](Entity entity, const IbrProxy& proxy, const WorldTransform& transform) {
         PlacedProxy placed;
@@ -61,7 +62,7 @@ std::vector<NamedCamera> perspective_cameras(const World& world, std::span<const
     if (lens == nullptr || transform == nullptr || lens->orthographic) continue;
     NamedCamera named = {.name = "camera " + std::string(world.resource<SceneNames>().name_of(entity)), .camera = {}};
     named.camera.fov_y = static_cast<double>(lens->fov_y);
-    named.camera.world_from_camera[3] = metric_matrix(transform->matrix, metres_per_unit(world))[3];
+    named.camera.world_from_camera[3] = metric_matrix(transform->matrix, 1.0 / scene_unit(world))[3];
     for (int axis = 0; axis < 3; ++axis)
       named.camera.world_from_camera[axis] = dvec4(glm::normalize(dvec3(transform->matrix[axis])), 0.0);
     cameras.push_back(std::move(named));
@@ -135,7 +136,7 @@ ProxyProposal propose_proxies(const World& world, const ProxyFitRequest& request
   const SceneSurfaces surfaces = gather_surfaces(world);
   const ProxySet existing = existing_proxies(world);
   const std::vector<NamedCamera> cameras = perspective_cameras(world, request.cameras);
-  const double metres = metres_per_unit(world);
+  const double metres = 1.0 / scene_unit(world);
   const double unit = 1.0 / metres;
   const RaySource source(surfaces, request.eyes, cameras.size(), metric_distances(trace, metres));
 

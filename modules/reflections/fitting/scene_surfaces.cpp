@@ -11,6 +11,7 @@
 #include "engine/scene/components.h"
 #include "engine/scene/posing/animated_nodes.h"
 #include "engine/scene/units.h"
+#include "modules/reflections/scene_unit.h"
 
 namespace gloam {
 namespace {
@@ -23,7 +24,7 @@ struct Instance {
 
 std::vector<Instance> gather_instances(const World& world, const SceneAssets& assets) {
   const AnimatedNodes animated(world);
-  const double metres = metres_per_unit(world);
+  const double metres = 1.0 / scene_unit(world);
   std::vector<Instance> instances;
   world.view<const MeshInstance, const WorldTransform>().each(
       [&](Entity entity, const MeshInstance& drawn, const WorldTransform& transform) {

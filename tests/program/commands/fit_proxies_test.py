@@ -12,8 +12,8 @@ CORNERS = [[(-6, 0, -6), (-6, 0, 6), (6, 0, 6), (6, 0, -6)], [(-6, 0, -6), (6, 0
            [(-6, 0, 6), (-6, 0, -6), (-6, 3, -6), (-6, 3, 6)]]
 
 
-def yard(extra_nodes=(), scale=1.0, offset=(0.0, 0.0, 0.0)):
-    """scale: units of a metre. offset: of the whole yard, units."""
+def yard(extra_nodes=(), scale=1.0, offset=(0.0, 0.0, 0.0), key=True):
+    """scale: units of a metre. offset: of the whole yard, units. key: with gloam.scale."""
     positions = b"".join(struct.pack("<3f", *(scale * c for c in quad[i])) for quad in CORNERS for i in (0, 1, 2, 0, 2, 3))
     mesh = [{"primitives": [{"attributes": {"POSITION": i}, "material": min(i, 1)}]} for i in range(3)]
     nodes = [{"mesh": i} for i in range(3)]
@@ -24,7 +24,8 @@ def yard(extra_nodes=(), scale=1.0, offset=(0.0, 0.0, 0.0)):
     accessors = [{"bufferView": 0, "byteOffset": 72 * i, "componentType": 5126, "count": 6, "type": "VEC3",
                   "min": [-6 * scale, 0, -6 * scale], "max": [6 * scale, 4 * scale, 6 * scale]} for i in range(3)]
     return {
-        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": list(range(len(nodes))), "extras": {"gloam.scale": 1.0 / scale}}], "nodes": nodes,
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": list(range(len(nodes))), "extras": {"gloam.scale": 1.0 / scale} if key else {}}],
+        "nodes": nodes,
         "cameras": [{"type": "perspective", "perspective": {"yfov": 0.9, "znear": 0.1 * scale}}], "meshes": mesh,
         "materials": [{"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": r}} for r in (0.1, 0.9)],
         "accessors": accessors, "bufferViews": [{"buffer": 0, "byteLength": len(positions)}],
@@ -68,10 +69,12 @@ class FitProxies(ProgramCase):
     def test_units_and_places_do_not_matter(self):
         expected = shares(self.fit(yard()))
         nodes = self.read_json("out/yard.proxies.json")["nodes"]
-        cases = [(scale, (0.0, 0.0, 0.0)) for scale in (0.001, 0.01, 100.0, 1000.0)] + [(1.0, (1e6, 2e5, -5e5)), (100.0, (1e8, 0.0, 0.0))]
-        for scale, offset in cases:
-            with self.subTest(scale=scale, offset=offset):
-                found = shares(self.fit(yard(scale=scale, offset=offset)))
+        cases = [(scale, (0.0, 0.0, 0.0), True) for scale in (0.001, 0.01, 100.0, 1000.0)]
+        cases += [(1.0, (1e6, 2e5, -5e5), True), (100.0, (1e8, 0.0, 0.0), True)]
+        cases += [(scale, (0.0, 0.0, 0.0), False) for scale in (0.01, 100.0)]
+        for scale, offset, key in cases:
+            with self.subTest(scale=scale, offset=offset, key=key):
+                found = shares(self.fit(yard(scale=scale, offset=offset, key=key)))
                 own = self.read_json("out/yard.proxies.json")["nodes"]
                 self.assertEqual(len(own), len(nodes))
                 for node, other in zip(own, nodes):
@@ -80,7 +83,7 @@ class FitProxies(ProgramCase):
                     self.assertNear(node["rotation"], other["rotation"], 1e-5)
                 for viewer, (caught, _) in found.items():
                     self.assertAlmostEqual(caught, expected[viewer][0], delta=0.3, msg=viewer)
-                again = shares(self.fit(yard(own, scale=scale, offset=offset)))
+                again = shares(self.fit(yard(own, scale=scale, offset=offset, key=key)))
                 for viewer, (_, existing) in again.items():
                     self.assertAlmostEqual(existing, expected[viewer][0], delta=0.3, msg=viewer)
 
