@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/render/readback/geometry_picture.h"
@@ -147,6 +148,35 @@ TEST_F(ReflectionViews, show_nothing_of_memory_that_the_frame_has_not_written) {
         ASSERT_EQ(vec2(first[i]), vec2(0.0f)) << tiers << " " << view << " " << i;
       }
     }
+}
+
+// Hard case: reflections.unwritten
+TEST_F(ReflectionViews, show_no_screen_space_and_no_proxies_where_no_mirror_is_in_view) {
+  draw();
+  for (Material& material : scene.assets().materials) material.roughness = 0.8f;
+  ++scene.assets().version;
+  for (const char* mode : {"tiers", "planar"}) {
+    set("reflections.mode", mode);
+    for (const char* view : {"reflection_tier", "reflection_confidence", "ibr_layers"})
+      for (const vec4& value : shown(view)) ASSERT_EQ(vec2(value), vec2(0.0f)) << mode << " " << view;
+  }
+}
+
+// Hard case: reflections.room_tiers
+TEST_F(ReflectionViews, the_picture_from_a_room_with_fewer_tiers_is_that_of_the_knob) {
+  const Entity room = world.create(IbrRoom{.size_m = vec3(20.0f)}, WorldTransform{at(0.0, 1.0, 0.0)});
+  const LinearPicture all = shot();
+  for (const auto& [tiers, knob] :
+       {std::pair(IbrRoomTiers::ibr_cube, "ibr+cube"), std::pair(IbrRoomTiers::ssr_cube, "ssr+cube"),
+        std::pair(IbrRoomTiers::cube, "cube")}) {
+    set("reflections.tiers", "all");
+    world.get<IbrRoom>(room).tiers = tiers;
+    const LinearPicture by_room = shot();
+    world.get<IbrRoom>(room).tiers = IbrRoomTiers::all;
+    set("reflections.tiers", knob);
+    EXPECT_EQ(worst_difference(by_room, shot()), 0.0) << knob;
+    EXPECT_GT(worst_difference(by_room, all), 0.01) << knob;
+  }
 }
 
 TEST_F(ReflectionViews, work_in_a_mirrored_picture_and_with_every_proxy_tested) {
