@@ -107,6 +107,8 @@ TEST_F(ModuleDemand, says_how_many_call_for_it) {
   world.create(DepthOfField{.focus_m = 3.0f});
   EXPECT_EQ(demand("closeups"), "+2 close-up subjects");
   EXPECT_EQ(demand("reflections"), "+1 reflective material, 2 proxies, 1 probe");
+  assets.materials[0].roughness = 0.7f;
+  EXPECT_EQ(demand("reflections"), "+1 reflective material, 2 proxies that no smooth material shows, 1 probe");
   EXPECT_EQ(demand("grass"), "+2 surfaces grow grass");
   EXPECT_EQ(demand("particles"), "+2 emitters");
   EXPECT_EQ(demand("depth_of_field"), "+2 cameras have a focus");
