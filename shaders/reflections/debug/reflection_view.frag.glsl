@@ -135,6 +135,7 @@ void show_probes(ivec2 pixel, float depth, vec3 position) {
   float nearest_m = surface ? dot(position - eye, ray) : 1e30;
   bool on_sphere = has_probes && sphere_light(eye, ray, nearest_m, sphere);
   if (on_sphere) light = sphere;
+  light *= reflection.capture_scale / view.light_scale;  // cd/m²
   if (surface || on_sphere) out_named = vec4(min(light, vec3(65504.0)), 1.0);
   show(light / (light + 1.0), surface || on_sphere ? 1.0 : kDarkened);
 }

@@ -209,6 +209,19 @@ TEST_F(ReflectionViews, the_view_of_probes_has_a_sphere_at_each_probe_that_mirro
   EXPECT_EQ(spheres(), 0u) << "behind the box";
 }
 
+TEST_F(ReflectionViews, the_view_of_probes_shows_radiance_in_whatever_scale_captures_and_frames_are) {
+  const std::vector<vec4> usual = shown("probes");
+  ReflectionCaptures captures = world.resource<ReflectionCaptures>();
+  captures.probes = flat_layers({vec4(0.5f), vec4(0.125f)});
+  captures.light_scale = 0.25f;
+  captures.version = 2;
+  world.set_resource(captures);
+  environment().has_exposure = true;
+  environment().exposure_ev100 = 14.0f;
+  const std::vector<vec4> scaled = shown("probes");
+  for (std::size_t i = 0; i < usual.size(); ++i) ASSERT_EQ(usual[i], scaled[i]) << i;
+}
+
 TEST_F(ReflectionViews, a_proxy_that_serves_no_surface_at_the_height_is_not_picked) {
   using testing::Contains;
   using testing::HasSubstr;
