@@ -16,10 +16,12 @@
 #include "engine/scene/posing/animated_nodes.h"
 #include "engine/scene/posing/animation.h"
 #include "engine/scene/resources.h"
+#include "engine/scene/units.h"
 #include "modules/lighting/components.h"
 #include "modules/lights/components.h"
 #include "modules/lights/light_names.h"
 #include "modules/reflections/components.h"
+#include "modules/reflections/scene_unit.h"
 #include "modules/shadows/components.h"
 
 namespace gloam {
@@ -226,6 +228,10 @@ std::uint64_t capture_content(const World& world) {
   const auto& environment = world.resource<SceneEnvironment>();
   for (const vec3& sky : {environment.sky_zenith, environment.sky_horizon, environment.sky_ground})
     hasher.bytes_of(sky);
+  // Near planes of captures and the factor of their light follow units.
+  const double metres = metres_per_unit(world), unit = scene_unit(world);
+  if (metres != 1.0) hasher.bytes_of(metres);
+  if (unit != 1.0) hasher.bytes_of(unit);
   add_instances(hasher, world, poses);
   hasher.text("lights");
   add_lights(hasher, world, poses, lights);

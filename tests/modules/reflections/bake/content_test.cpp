@@ -9,6 +9,8 @@
 #include <string>
 
 #include "engine/scene/posing/animation.h"
+#include "engine/scene/units.h"
+#include "modules/reflections/scene_unit.h"
 #include "tests/modules/reflections/bake/bake_world.h"
 #include "tests/modules/reflections/bake/small_png.h"
 #include "tests/support/temporary_folder.h"
@@ -88,6 +90,12 @@ TEST_F(CaptureContent, changes_with_lights_proxies_and_probes) {
   EXPECT_TRUE(changes_with([](auto& s) { s.world.template get<CubeProbe>(s.probe).resolution = 64; }));
   EXPECT_TRUE(changes_with([](auto& s) { s.world.template get<CubeProbe>(s.probe).global = true; }));
   EXPECT_TRUE(changes_with([&](auto&) { std::ofstream(texture, std::ios::app) << "more"; }));
+}
+
+TEST_F(CaptureContent, changes_with_the_unit_of_length) {
+  EXPECT_TRUE(changes_with([](auto& s) { s.world.set_resource(SceneUnits{0.01}); }));
+  EXPECT_TRUE(changes_with([](auto& s) { s.world.set_resource(EstimatedUnit{0.01}); }));
+  EXPECT_FALSE(changes_with([](auto& s) { s.world.set_resource(SceneUnits{1.0}); }));
 }
 
 TEST_F(CaptureContent, does_not_change_with_cameras_and_time) {
