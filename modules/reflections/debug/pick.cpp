@@ -49,7 +49,7 @@ std::optional<MetProxy> nearest_proxy(const ReflectionPlan& plan, const ProxySet
     const std::size_t index = plan.knobs.naive ? row : tiles.proxies[row];
     const PlacedProxy& proxy = set.proxies[index];
     const double facing = glm::dot(proxy.normal, direction);
-    if (facing >= 0.0 || !(plan.proxies[row].dim > 0.0f)) continue;
+    if (facing >= 0.0 || !(plan.proxies[row].opacity > 0.0f)) continue;
     if (!serves_height(set, tiles, proxy, camera, origin.y)) continue;
     const double distance_m = glm::dot(proxy.normal, proxy.center - origin) / facing;
     if (distance_m <= 0.0 || (nearest && nearest->distance_m <= distance_m)) continue;
