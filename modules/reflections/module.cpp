@@ -24,6 +24,7 @@
 #include "modules/reflections/frame.h"
 #include "modules/reflections/knobs.h"
 #include "modules/reflections/materials.h"
+#include "modules/reflections/override.h"
 #include "modules/reflections/planar/mirror.h"
 #include "modules/reflections/planar/patches.h"
 #include "modules/reflections/proxies/room_tiers.h"
@@ -174,7 +175,9 @@ class ReflectionsModule final : public Module {
     if (materials.mirror + materials.rough == 0) return {false, "no reflective material"};
     if (view != nullptr && !sees_surfaces(world, *view)) return {false, "only sky in view"};
     const std::size_t probes = world.view<const CubeProbe>().size();
-    if (materials.mirror == 0 && probes == 0) return {false, "no smooth material and no probe"};
+    const bool judged =
+        world.try_resource<TracedReflections>() != nullptr || world.try_resource<ReflectionOverride>() != nullptr;
+    if (materials.mirror == 0 && probes == 0 && !judged) return {false, "no smooth material and no probe"};
     return {true, count(materials.mirror + materials.rough, " reflective material, ", " reflective materials, ") +
                       count(world.view<const IbrProxy>().size(), " proxy", " proxies") +
                       (materials.mirror == 0 ? " that no smooth material shows, " : ", ") +

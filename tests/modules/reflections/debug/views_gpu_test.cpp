@@ -12,6 +12,7 @@
 
 #include "engine/render/readback/geometry_picture.h"
 #include "engine/scene/resources.h"
+#include "modules/reflections/override.h"
 #include "tests/modules/reflections/support/reflection_frames.h"
 
 namespace gloam::test {
@@ -388,6 +389,26 @@ TEST_F(ReflectionViews, the_picture_with_traced_reflections_is_antialiased_as_th
   EXPECT_EQ(shown_as("reflection_reference", "smaa"), smooth);
   EXPECT_GT(differences(shown_as("reflection_reference", "off"), smooth), 50u) << "edges are smoothed";
   world.remove_resource<TracedReflections>();
+}
+
+TEST_F(ReflectionFrames, references_show_reflections_of_rough_surfaces_without_a_probe) {
+  sky(vec3(0.1f));
+  mirror_floor(0.6f);
+  shining_box({0.0, 0.5, 0.0}, vec3(0.4f, 0.5f, 0.3f), vec3(4.0f));
+  const LinearPicture usual = shot();
+  EXPECT_FALSE(module_state("reflections").demanded);
+  const GeometryPicture seen = geometry();
+  const auto tracer = value_of(make_scene_tracer(world, *executor, seen.view.position));
+  const TracedReflections rays = trace_radiance(
+      {.world = world, .geometry = seen, .tracer = *tracer, .executor = *executor, .settings = {.rays = 32}});
+  world.set_resource(rays);
+  const LinearPicture traced = shot();
+  world.remove_resource<TracedReflections>();
+  world.set_resource(ReflectionOverride::no_specular);
+  const LinearPicture composed = compose_reflections(shot(), seen, world, rays);
+  world.remove_resource<ReflectionOverride>();
+  EXPECT_GT(worst_difference(traced, usual), 0.5);
+  EXPECT_LT(worst_difference(traced, composed), 0.02) << "rounded values of the geometry buffer";
 }
 
 }  // namespace
