@@ -178,10 +178,10 @@ inline constexpr ChoiceKnob<bool> kNaiveProxyLoop{
 inline constexpr ChoiceKnob<bool> kReflectionRecapture{
     .name = "reflections.recapture",
     .meaning =
-        "whether outdated captures of proxies in view are drawn again when lights have changed: never (off), or the "
-        "most wrong one of each frame (budget)",
+        "whether outdated captures in view are drawn again when lights have changed: never (off), or the most wrong "
+        "ones, a proxy or a face of a probe each frame (budget)",
     .choices = {{"off", false}, {"budget", true}},
-    .only_with = "reflections.tiers=ibr+cube|all"};
+    .only_with = "reflections.mode=tiers|planar"};
 
 void add_reflection_knobs(KnobRegistry& registry);
 [[nodiscard]] ReflectionKnobs reflection_knobs(const KnobRegistry& registry);

@@ -153,11 +153,14 @@ class ReflectionsModule final : public Module {
                        CompanionViews& companions) const override {
     const ReflectionKnobs settings = reflection_knobs(knobs);
     add_mirrored_view(world, main, settings, companions);
-    const bool recaptures = settings.recapture && settings.proxies && settings.light_scale;
-    const auto factors = factors_.find(world_id(world));
-    const bool reflected =
-        recaptures && factors != factors_.end() && mirrors_.contains({world_id(world), main.id.value});
-    add_recapture_view(world, main, reflected ? &factors->second : nullptr, companions);
+    const std::uint64_t number = world_id(world);
+    const auto factors = factors_.find(number);
+    const bool reflected = factors != factors_.end() && reflecting_.contains({number, main.id.value});
+    RecaptureState state;
+    if (settings.recapture && settings.light_scale && reflected) state.factors = &factors->second;
+    if (const auto found = progress_.find(number); found != progress_.end()) state.progress = found->second;
+    state.proxies = settings.proxies;
+    add_recapture_view(world, main, state, companions);
   }
   [[nodiscard]] bool shows_surfaces(const World&, const RenderView&) const override { return false; }
   [[nodiscard]] std::string switched_off(const World&, const KnobRegistry& knobs) const override {
@@ -191,16 +194,9 @@ class ReflectionsModule final : public Module {
       list_reflection_pipelines(wanted, device.threads_in_turn, last_blended_, last_probes_, list);
   }
   void add_passes(FrameBuilder& frame, PassPhase phase) override {
-    if (phase == PassPhase::announce) {
-      announce_reflections(frame, staging_, factors_of(frame.world()));
-      announce_reflection_view(frame);
-      last_rooms_ = room_tiers_in_use(frame.world());
-      const auto* plan = frame.find<ReflectionPlan>();
-      note_mirrors(frame, plan != nullptr && plan->mirror);
-    }
+    if (phase == PassPhase::announce) announce(frame);
     if (phase == PassPhase::lists) add_reflection_list_passes(frame);
     if (phase == PassPhase::shading) add_reflection_passes(frame, staging_, factors_of(frame.world()));
-    if (const auto* probes = frame.find<SurroundingProbes>()) last_probes_ = probes->rows.size();
     if (phase == PassPhase::shading) last_blended_ = frame.find<BlendedLayer>() != nullptr;
     if (phase == PassPhase::visualize) add_reflection_view_pass(frame);
   }
@@ -225,7 +221,8 @@ class ReflectionsModule final : public Module {
   void release() override {
     staging_.release();
     factors_.clear();
-    mirrors_.clear();
+    progress_.clear();
+    reflecting_.clear();
   }
 
  private:
@@ -236,27 +233,41 @@ class ReflectionsModule final : public Module {
     return settings;
   }
 
+  void announce(FrameBuilder& frame) {
+    announce_reflections(frame, staging_, factors_of(frame.world()), progress_[world_id(frame.world())]);
+    announce_reflection_view(frame);
+    last_rooms_ = room_tiers_in_use(frame.world());
+    const auto* plan = frame.find<ReflectionPlan>();
+    const auto* probes = frame.find<SurroundingProbes>();
+    if (probes != nullptr) last_probes_ = probes->rows.size();
+    note_reflecting(frame, plan != nullptr && (plan->mirror || !probes->rows.empty()));
+  }
+
   CaptureFactors& factors_of(const World& world) {
-    if (factors_.size() > kMostWorlds) factors_.clear();  // of worlds that are gone
+    if (factors_.size() > kMostWorlds) {  // of worlds that are gone
+      factors_.clear();
+      progress_.clear();
+    }
     return factors_[world_id(world)];
   }
 
-  void note_mirrors(const FrameBuilder& frame, bool mirror) {
+  void note_reflecting(const FrameBuilder& frame, bool reflects) {
     const std::pair key(world_id(frame.world()), frame.view().id.value);
-    if (mirror) {
-      mirrors_.insert(key);
+    if (reflects) {
+      reflecting_.insert(key);
     } else {
-      mirrors_.erase(key);
+      reflecting_.erase(key);
     }
   }
 
   static constexpr std::size_t kMostWorlds = 8;
   Staging staging_{"reflections"};
-  std::map<std::uint64_t, CaptureFactors> factors_;            ///< by world_id
-  std::set<std::pair<std::uint64_t, std::uint32_t>> mirrors_;  ///< world_id and view: its last frame had mirrors
-  std::size_t last_probes_ = 0;                                ///< captured probes of the last frame
-  RoomTiersInUse last_rooms_ = 0;                              ///< kinds of rooms in its world
-  bool last_blended_ = false;                                  ///< it had a BlendedLayer
+  std::map<std::uint64_t, ProbeProgress> progress_;               ///< by world_id
+  std::map<std::uint64_t, CaptureFactors> factors_;               ///< by world_id
+  std::set<std::pair<std::uint64_t, std::uint32_t>> reflecting_;  ///< world_id and view: its last frame showed captures
+  std::size_t last_probes_ = 0;                                   ///< captured probes of the last frame
+  RoomTiersInUse last_rooms_ = 0;                                 ///< kinds of rooms in its world
+  bool last_blended_ = false;                                     ///< it had a BlendedLayer
 };
 
 }  // namespace

@@ -84,15 +84,13 @@ ReflectionUniforms upload_uniforms(FrameBuilder& frame, const ReflectionPlan& pl
 }
 
 /// The probes of the view, for lighting.
-SurroundingProbes surrounding_probes(FrameBuilder& frame, Staging& staging, std::span<const CaptureFactor> factors,
+SurroundingProbes surrounding_probes(FrameBuilder& frame, std::span<const CaptureFactor> factors,
                                      std::span<const vec4> cells) {
   const World& world = frame.world();
   const auto& captures = world.resource<ReflectionCaptures>();
   SurroundingProbes probes;
   probes.rows = probe_rows(world, frame.view(), captures, factors, cells);
   probes.factors.assign(cells.begin(), cells.end());
-  if (!probes.rows.empty())
-    probes.images = upload_captures(frame, staging, "reflection_probes", captures.probes, captures.version);
   probes.scale = frame.view().light_scale / captures.light_scale;
   return probes;
 }
@@ -116,8 +114,8 @@ void add_mirror_passes(FrameBuilder& frame, Staging& staging, const ReflectionPl
     bool uploaded = false;
     proxies.images =
         upload_captures(frame, staging, "reflection_proxies", captures.proxies, captures.version, &uploaded);
-    if (uploaded) factors.forget_recaptures();
-    proxies.images = add_recapture_passes(frame, factors, proxies.images);
+    if (uploaded) factors.forget_proxy_recaptures();
+    proxies.images = add_proxy_recapture(frame, factors, proxies.images);
   }
   ScreenSpaceHits hits;
   if (knobs.screen_space) hits = add_screen_space_pass(frame, knobs, uniforms, surfaces.tiles);
@@ -140,7 +138,7 @@ ReflectionKnobs knobs_of(const FrameBuilder& frame) {
 
 }  // namespace
 
-void announce_reflections(FrameBuilder& frame, Staging& staging, CaptureFactors& factors) {
+void announce_reflections(FrameBuilder& frame, Staging& staging, CaptureFactors& factors, ProbeProgress& progress) {
   const World& world = frame.world();
   const RenderView& view = frame.view();
   const ReflectionKnobs knobs = in_room(knobs_of(frame), world, view.id);
@@ -165,7 +163,7 @@ void announce_reflections(FrameBuilder& frame, Staging& staging, CaptureFactors&
     without_lamps.assign(captures.probe_entities.size(), CaptureFactor{.first = 0});
     of_probes = without_lamps;
   }
-  SurroundingProbes probes = surrounding_probes(frame, staging, of_probes, plan.factors);
+  SurroundingProbes probes = surrounding_probes(frame, of_probes, plan.factors);
   plan.no_specular = change != nullptr && *change == ReflectionOverride::no_specular;
   const bool reference = plan.no_specular || plan.traced != nullptr;
   plan.mirror = !reference && seen == Reflective::mirror && (knobs.mirror() || plan.planar);
@@ -178,6 +176,12 @@ void announce_reflections(FrameBuilder& frame, Staging& staging, CaptureFactors&
   if (plan.mirror && !plan.planar && knobs.screen_space && !frame.draws().blended.empty())
     frame.put(BlendedLayerWanted{});
   probes.surroundings_follow = !reference;
+  if (!probes.rows.empty()) {
+    bool uploaded = false;
+    probes.images = upload_captures(frame, staging, "reflection_probes", captures.probes, captures.version, &uploaded);
+    if (uploaded) factors.forget_probe_recaptures();
+    probes.images = add_probe_recapture(frame, factors, progress, probes.images);
+  }
   frame.put(std::move(probes));
   if (reference) frame.put(SpecularAmbientTaken{});
   frame.put(std::move(plan));
@@ -208,9 +212,10 @@ void list_reflection_pipelines(const ReflectionKnobs& knobs, bool direct, bool b
   add(surface_program(probes));
   for (const bool mirrors : {false, true}) add(list_tiles_program(mirrors));
   add(surroundings_program(knobs.mirror() || planar, probes));
+  if (knobs.recapture)
+    for (const ComputeProgram& program : recapture_programs()) add(program);
   if (!knobs.mirror() && !planar) return;
   if (knobs.screen_space) add(screen_space_program(knobs, blended, probes));
-  if (knobs.proxies && knobs.recapture) add(recapture_program());
   add(planar ? planar_program(knobs) : proxy_program(knobs));
   if (knobs.temporal) add(temporal_program());
   if (knobs.blur)

@@ -7,13 +7,14 @@
 #include "engine/frame/transfers/staging.h"
 #include "engine/render/frame_builder.h"
 #include "modules/reflections/frame.h"
+#include "modules/reflections/recapture/recapture.h"
 #include "modules/reflections/relighting/capture_factors.h"
 
 namespace gloam {
 
 /// PassPhase::announce: puts ReflectionPlan and SurroundingProbes on the board, if a visible material reflects. factors:
-/// of the frame's world; brought up to date if captures are shown.
-void announce_reflections(FrameBuilder& frame, Staging& staging, CaptureFactors& factors);
+/// of the frame's world; brought up to date if captures are shown. progress: of the frame's world.
+void announce_reflections(FrameBuilder& frame, Staging& staging, CaptureFactors& factors, ProbeProgress& progress);
 
 /// PassPhase::lists: finds the surfaces that reflect, and what they mirror of their surroundings.
 void add_reflection_list_passes(FrameBuilder& frame);

@@ -141,21 +141,24 @@ vec3 CapturedCube::sample(const vec3& direction, float lod) const {
   return glm::mix(light, sample(levels_[fine + 1], point.face, point.position), share);
 }
 
+ViewSettings face_view(std::uint32_t face, const dvec3& eye, std::uint32_t side, double unit_m) {
+  const CubeFaceAxes axes = cube_face_axes(face);
+  ViewSettings settings = capture_view(face);
+  settings.width = settings.height = side;
+  settings.camera.fov_y = std::numbers::pi_v<float> / 2.0f;
+  settings.camera.near_m = static_cast<float>(kProbeNear * unit_m);
+  settings.world_from_camera =
+      dmat4(dvec4(axes.right, 0.0), dvec4(axes.up, 0.0), dvec4(-axes.forward, 0.0), dvec4(eye, 1.0));
+  return settings;
+}
+
 namespace {
 
 std::array<ViewRequest, 6> face_views(const dvec3& eye, std::uint32_t side, double unit_m) {
   std::array<ViewRequest, 6> requests;
   static_assert(kBakeViews / 2 == std::tuple_size_v<decltype(requests)>);
-  for (std::uint32_t face = 0; face < requests.size(); ++face) {
-    const CubeFaceAxes axes = cube_face_axes(face);
-    ViewSettings& settings = requests[face].settings;
-    settings = capture_view(face);
-    settings.width = settings.height = side;
-    settings.camera.fov_y = std::numbers::pi_v<float> / 2.0f;
-    settings.camera.near_m = static_cast<float>(kProbeNear * unit_m);
-    settings.world_from_camera =
-        dmat4(dvec4(axes.right, 0.0), dvec4(axes.up, 0.0), dvec4(-axes.forward, 0.0), dvec4(eye, 1.0));
-  }
+  for (std::uint32_t face = 0; face < requests.size(); ++face)
+    requests[face].settings = face_view(face, eye, side, unit_m);
   return requests;
 }
 

@@ -53,6 +53,9 @@ class CapturedCube {
   std::vector<Level> levels_;
 };
 
+/// The view of one face of a cube around `eye`. side: pixels. unit_m: scene_unit().
+[[nodiscard]] ViewSettings face_view(std::uint32_t face, const dvec3& eye, std::uint32_t side, double unit_m);
+
 enum class CapturedLamps : std::uint8_t { on, left_out };
 
 /// Draws the static scene around `eye`. side: pixels of a face's sides, a power of two. light_scale: of the captures.

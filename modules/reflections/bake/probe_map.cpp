@@ -18,13 +18,6 @@ namespace {
 constexpr std::uint32_t kFewestSamples = 64;  // of mip 1, doubled from mip to mip: wider lobes have fewer texels
 constexpr std::uint32_t kMostSamples = 512;
 
-/// A direction around the normal (0, 0, 1) from which light is taken.
-struct LobeSample {
-  vec3 direction = vec3(0.0f);
-  float weight = 0.0f;  ///< the weights of a lobe sum to 1
-  float lod = 0.0f;
-};
-
 /// Samples of the GGX lobe around the mirror direction, for a viewer along the normal. face_side: of the cube. count:
 /// samples to draw; those below the horizon are left out.
 std::vector<LobeSample> lobe_samples(double roughness, std::uint32_t face_side, std::uint32_t count) {
@@ -87,14 +80,17 @@ vec3 probe_map_direction(vec2 uv) {
   return {decoded.x, decoded.z, decoded.y};
 }
 
+std::vector<LobeSample> lobe_samples_of_mip(std::uint32_t mip, std::uint32_t mips, std::uint32_t face_side) {
+  const double roughness = mips == 1 ? 0.0 : static_cast<double>(mip) / (mips - 1);
+  return lobe_samples(roughness, face_side, std::min(kFewestSamples << mip >> 1, kMostSamples));
+}
+
 void append_probe_map(const CapturedCube& cube, std::uint32_t side, JobExecutor& executor,
                       std::vector<std::uint16_t>& halves) {
   const std::uint32_t mips = probe_map_mips(side);
   for (std::uint32_t mip = 0; mip < mips; ++mip) {
     const std::uint32_t size = side >> mip;
-    const double roughness = mips == 1 ? 0.0 : static_cast<double>(mip) / (mips - 1);
-    const std::uint32_t count = std::min(kFewestSamples << mip >> 1, kMostSamples);
-    const std::vector<LobeSample> samples = lobe_samples(roughness, cube.side(), count);
+    const std::vector<LobeSample> samples = lobe_samples_of_mip(mip, mips, cube.side());
     const float texel = 1.0f / static_cast<float>(size);
     const std::size_t first = halves.size();
     halves.resize(first + std::size_t{4} * size * size);

@@ -23,6 +23,16 @@ inline constexpr std::uint32_t kLastProbeSide = 8;        ///< texels of its las
 /// World direction, of unit length, that the point (u, v) of a probe's map shows; both 0…1, v from the top.
 [[nodiscard]] vec3 probe_map_direction(vec2 uv);
 
+/// A direction around the normal (0, 0, 1) from which light is taken.
+struct LobeSample {
+  vec3 direction = vec3(0.0f);
+  float weight = 0.0f;  ///< the weights of a lobe sum to 1
+  float lod = 0.0f;     ///< of the cube
+};
+/// Samples of a mip of a probe's map. mips: of the map. face_side: of the cube. Mip 0: one sample, the normal itself.
+[[nodiscard]] std::vector<LobeSample> lobe_samples_of_mip(std::uint32_t mip, std::uint32_t mips,
+                                                          std::uint32_t face_side);
+
 /// Appends the octahedral map of a cube with all its mips, as ReflectionCaptures::probes stores them. Mip m is
 /// prefiltered for roughness r = m / (mips − 1): the mean radiance under GGX with α = r², seen along the normal (Karis,
 /// "Real Shading in Unreal Engine 4", 2013, with samples from the mip whose texels have the solid angle of the sample).

@@ -315,10 +315,10 @@ void CaptureFactors::note_recapture(std::size_t row) {
   recaptures_changed_ = true;
 }
 
-void CaptureFactors::forget_recaptures() {
-  for (Recapture& recapture : recaptures_) {
-    recaptures_changed_ = recaptures_changed_ || recapture.noted;
-    recapture = {};
+void CaptureFactors::forget_recaptures(std::size_t first, std::size_t end) {
+  for (std::size_t row = first; row < std::min(end, recaptures_.size()); ++row) {
+    recaptures_changed_ = recaptures_changed_ || recaptures_[row].noted;
+    recaptures_[row] = {};
   }
 }
 

@@ -46,8 +46,9 @@ class CaptureFactors {
   /// Notes that a capture shows its proxy as it is since the last update, with the lamps of that moment. row: layer of
   /// the proxy; for a probe the number of proxies plus its layer. The next update sees it.
   void note_recapture(std::size_t row);
-  /// Notes that all captures show again what they showed when they were baked.
-  void forget_recaptures();
+  /// Notes that all proxies, or all probes, show again what they showed when they were baked.
+  void forget_proxy_recaptures() { forget_recaptures(0, proxies_.size()); }
+  void forget_probe_recaptures() { forget_recaptures(proxies_.size(), recaptures_.size()); }
   /// Captures of this row that were noted since the captures were put into the world.
   [[nodiscard]] bool recaptured(std::size_t row) const { return row < recaptures_.size() && recaptures_[row].noted; }
 
@@ -79,6 +80,7 @@ class CaptureFactors {
     float lit = 0.0f;         ///< CapturedParts::lit
   };
   [[nodiscard]] static std::vector<Changed> changed_lights(const World& world, const ReflectionCaptures& captures);
+  void forget_recaptures(std::size_t first, std::size_t end);
   void update_all(const World& world, const ReflectionCaptures& captures);
   [[nodiscard]] CaptureFactor factor_of(const Surfaces& surfaces, const CapturedParts& parts, std::size_t row);
   [[nodiscard]] double unit_then(const Surfaces& surfaces, const Changed& light, std::size_t cell);

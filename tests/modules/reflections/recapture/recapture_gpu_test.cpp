@@ -90,6 +90,28 @@ TEST_F(Recaptures, proxies_in_view_are_right_after_lamps_have_moved) {
   EXPECT_LT(share_unlike_new_captures(), 0.2 * kept);
 }
 
+TEST_F(Recaptures, a_probe_is_captured_again_a_face_or_a_mip_a_frame) {
+  set("reflections.tiers", "cube");
+  frames(2);
+  move_lamps(12.0);
+  for (int frame = 0; frame < 20; ++frame) {
+    draw();
+    EXPECT_LE(passes("reflection_recapture_face") + passes("reflection_recapture_map"), 2u) << "pass and its mips";
+    EXPECT_EQ(passes("reflection_recapture_face") * passes("reflection_recapture_map"), 0u);
+  }
+  EXPECT_EQ(passes("reflection_recapture"), 0u) << "it ends";
+  const double light = floor_light();
+  const LinearPicture seen = shot();
+  capture_again();
+  EXPECT_NEAR(floor_light() / light, 1.0, 0.02);
+  std::size_t unlike = 0, all = 0;
+  const LinearPicture expected = shot();
+  for (std::uint32_t y = settings.height / 2; y < settings.height; ++y)
+    for (std::uint32_t x = 0; x < settings.width; ++x, ++all)
+      unlike += relative_error(pixel(seen, x, y), pixel(expected, x, y), 1.0) > 0.05 ? 1 : 0;
+  EXPECT_LT(unlike, all / 20) << "GPU and CPU prefilter alike, each face is where it was";
+}
+
 TEST_F(Recaptures, what_was_dark_at_capture_is_lit_within_60_frames) {
   scale_lamps(0.0f);
   capture_again();
