@@ -143,7 +143,7 @@ class Bake {
     sources_ = light_sources(world_);
     const ReflectiveMaterials materials = count_reflective(world_.resource<SceneAssets>());
     const bool shows_probes = !probes.empty() && materials.mirror + materials.rough > 0;
-    total_ = proxies.size() + probes.size() * (shows_probes ? 2 : 1);
+    total_ = proxies.size() + probes.size();
     captures_.content = capture_content(world_);
     captures_.light_scale = light_scale(scene_brightness(world_));
     captures_.lights = light_states(world_);
@@ -151,7 +151,9 @@ class Bake {
     // Captures show what pictures show: surfaces that reflect their surroundings. Probes are captured twice, first with
     // the sky alone for surroundings, then with each other.
     WorldCaptures shown(world_);
+    counting_ = !shows_probes;
     GLOAM_TRY(add_probes(probes));
+    counting_ = true;
     if (shows_probes) {
       shown.show(captures_);
       captures_.probes = {};
@@ -289,6 +291,7 @@ class Bake {
   }
 
   void tell_progress() {
+    if (!counting_) return;
     ++done_;
     if (settings_.progress) settings_.progress(done_, total_);
   }
@@ -298,6 +301,7 @@ class Bake {
   const BakeSettings& settings_;
   std::vector<LightSource> sources_;
   ReflectionCaptures captures_;
+  bool counting_ = true;  ///< finished captures count
   std::size_t done_ = 0;
   std::size_t total_ = 0;
 };
