@@ -134,7 +134,10 @@ class ReflectionsModule final : public Module {
   [[nodiscard]] std::vector<std::string> warnings(const World& world) const override { return unseen_captures(world); }
   [[nodiscard]] std::vector<MeasureInfo> measures() const override { return proxy_measures(); }
   [[nodiscard]] std::string idle_knob(const World& world, const RenderView& view, std::string_view knob,
-                                      const FrameCounters&) const override {
+                                      const FrameCounters& counters) const override {
+    const auto outdated = counters.find("reflections.outdated");
+    if (knob == kReflectionRecapture.name && outdated != counters.end() && outdated->second == 0.0)
+      return "no capture is outdated";
     return idle_reflection_knob(world, view, knob);
   }
   void add_systems(Schedule& schedule) override { add_proxy_systems(schedule); }
