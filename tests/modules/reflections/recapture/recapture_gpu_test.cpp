@@ -150,6 +150,59 @@ TEST_F(Recaptures, a_view_that_sees_no_mirror_captures_nothing) {
   EXPECT_EQ(passes("reflection"), 0u);
 }
 
+/// With shadows, and a wall with a gap across the hall: factors do not know which lamps a wall hides.
+struct ShadowedRecaptures : Recaptures {
+  [[nodiscard]] bool with_shadows() const override { return true; }
+  void SetUp() override {
+    Recaptures::SetUp();
+    if (IsSkipped()) return;
+    for (const double side : {-1.0, 1.0})
+      scene.draw(scene.mesh(box(vec3(0.1f, 2.5f, 2.0f), shining(vec3(0.0f)))), at(0.0, 2.5, side * 4.0));
+    capture_again();
+  }
+};
+
+TEST_F(ShadowedRecaptures, are_right_where_a_lamp_has_moved_to_another_room) {
+  for (const char* tiers : {"cube", "ibr+cube"}) {
+    set("reflections.tiers", tiers);
+    frames(2);
+    move_lamps(12.0);
+    frames(60);
+    const double seen = floor_light();
+    capture_again();
+    EXPECT_NEAR(seen / floor_light(), 1.0, 0.05) << tiers;
+    move_lamps(-12.0);
+    capture_again();
+  }
+}
+
+TEST_F(Recaptures, two_views_of_a_world_capture_the_same_probe_together) {
+  set("reflections.tiers", "cube");
+  std::vector<ViewRequest> requests(2);
+  requests[0].settings = requests[1].settings = settings;
+  requests[1].settings.id = ViewId{1};
+  const auto both = [&] {
+    ASSERT_TRUE(renderer->render(world, requests).ok());
+    ASSERT_TRUE(renderer->wait().ok());
+  };
+  both();
+  move_lamps(12.0);
+  for (int frame = 0; frame < 30; ++frame) both();
+  const double light = floor_light();
+  capture_again();
+  EXPECT_NEAR(floor_light() / light, 1.0, 0.02);
+}
+
+TEST_F(Recaptures, lamps_that_move_in_every_frame_stay_within_the_budget) {
+  frames(2);
+  for (int frame = 0; frame < 30; ++frame) {
+    move_lamps(0.4);
+    EXPECT_LE(frames(1), 1u);
+  }
+  frames(60);
+  EXPECT_LT(share_unlike_new_captures(), 0.1);
+}
+
 TEST_F(Recaptures, proxies_with_an_image_of_their_own_are_left_alone) {
   world.view<IbrProxy>().each([&](IbrProxy& proxy) { proxy.kind = IbrProxyKind::fire; });
   capture_again();
