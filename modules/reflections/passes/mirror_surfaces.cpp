@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "modules/reflections/passes/mirror_surfaces.h"
 
+#include <algorithm>
 #include <string>
 
 #include "modules/lighting/outputs.h"
@@ -95,6 +96,7 @@ MirrorTiles add_surface_passes(FrameBuilder& frame, const ReflectionUniforms& un
 MirrorSurfaces add_surroundings_passes(FrameBuilder& frame, const ReflectionUniforms& uniforms, MirrorTiles tiles,
                                        bool mirrors) {
   MirrorSurfaces found;
+  const uvec2 size(frame.view().width, frame.view().height);
   {
     ComputePass pass(frame, "reflection_surroundings",
                      surroundings_program(mirrors, frame.get<SurroundingProbes>().rows.size()));
@@ -105,8 +107,10 @@ MirrorSurfaces add_surroundings_passes(FrameBuilder& frame, const ReflectionUnif
     lit.color = pass.write("lit_image", lit.color);
     const ImageRef ambient = create_view_image(frame, "strong_ambient", gpu::Format::rgba16_float);
     frame.put(StrongAmbient{pass.write("ambient_image", ambient)});
+    // Without mirrored images, the shader writes none of both.
+    const std::uint32_t divisor = mirrors ? uniforms.constants.scale : std::max(size.x, size.y);
     const auto image = [&](const char* name, gpu::Format format) {
-      return mirrors ? create_view_image(frame, name, format, uniforms.constants.scale) : ImageRef{};
+      return create_view_image(frame, name, format, divisor);
     };
     tiles.image = pass.write("mirror_image", image("reflection_mirrors", gpu::Format::rg32_uint));
     found.surface = pass.write("surface_image", image("reflection_surface", gpu::Format::rgba8_unorm));
@@ -115,6 +119,7 @@ MirrorSurfaces add_surroundings_passes(FrameBuilder& frame, const ReflectionUnif
     dispatch_listed_tiles(pass, tiles, GLOAM_LIST_STRONG);
   }
   if (mirrors) list_tiles(frame, uniforms, tiles, true);
+  if (!mirrors) tiles.image = {};
   found.tiles = tiles;
   return found;
 }
