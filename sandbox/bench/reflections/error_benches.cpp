@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -55,10 +58,13 @@ constexpr std::size_t kAll = 4;
 constexpr std::size_t kConstantMarch = 5;
 
 struct JudgedCamera {
-  const char* scene;  ///< "courtyard" or "wet_street"
+  std::string_view scene;  ///< "courtyard", "wet_street" or kBalls
   const char* camera;
 };
-constexpr std::array<JudgedCamera, 10> kCameras = {{{"courtyard", "court"},
+/// Metal balls over floors of several roughnesses. Rows over all scenes leave it out: it is nothing but metals.
+constexpr std::string_view kBalls = "balls";
+constexpr const char* kBallsFile = "../shared/cases/balls.gltf";
+constexpr std::array<JudgedCamera, 14> kCameras = {{{"courtyard", "court"},
                                                     {"courtyard", "walkway"},
                                                     {"courtyard", "down"},
                                                     {"courtyard", "grazing"},
@@ -67,7 +73,11 @@ constexpr std::array<JudgedCamera, 10> kCameras = {{{"courtyard", "court"},
                                                     {"wet_street", "down"},
                                                     {"wet_street", "terrace"},
                                                     {"wet_street", "shop"},
-                                                    {"wet_street", "still"}}};
+                                                    {"wet_street", "still"},
+                                                    {kBalls, "front"},
+                                                    {kBalls, "low"},
+                                                    {kBalls, "mid"},
+                                                    {kBalls, "down"}}};
 
 struct TierError {
   double rmse = 0.0;       ///< linear light, cd/m²
@@ -85,8 +95,15 @@ struct SharedReflections {
 
 /// The scene file or built-in scene of a judged camera; none if it is missing.
 std::optional<std::string> judged_scene_of(const BenchContext& context, const JudgedCamera& judged) {
-  if (judged.scene == std::string("courtyard")) return courtyard_scene(context);
-  return kWetStreet;
+  if (judged.scene == "courtyard") return courtyard_scene(context);
+  if (judged.scene == "wet_street") return kWetStreet;
+  std::error_code ignored;
+  if (std::filesystem::exists(kBallsFile, ignored)) return kBallsFile;
+  return std::nullopt;
+}
+
+BenchValue skipped_scene(std::string_view scene) {
+  return skipped_row(scene == kBalls ? std::string("there is no ") + kBallsFile : no_courtyard());
 }
 
 Result<Session*> reflection_session_of(BenchContext& context, SharedReflections& shared, const std::string& scene,
@@ -191,13 +208,13 @@ void add_reflection_camera_rows(BenchRegistry& registry, const std::shared_ptr<S
   const JudgedCamera& judged = kCameras[index];
   const auto add = [&](std::size_t tiers, const char* name, const char* unit, auto value) {
     BenchRow row;
-    row.id = std::string("reflections.error.") + judged.scene + "." + judged.camera + "." + kTierSets[tiers].name +
+    row.id = "reflections.error." + std::string(judged.scene) + "." + judged.camera + "." + kTierSets[tiers].name +
              "." + name;
     row.unit = unit;
     row.run = [=](BenchContext& context) -> Result<BenchValue> {
       const auto errors = judge_reflections(context, *shared, index);
       if (!errors) return errors.error();
-      if (*errors == nullptr) return skipped_row(no_courtyard());
+      if (*errors == nullptr) return skipped_scene(kCameras[index].scene);
       const TierError& error = (**errors)[tiers];
       BenchValue result = single_value(value(error), error.hash);
       result.scene = judged_scene_of(context, kCameras[index]);
@@ -218,12 +235,12 @@ struct FlipSums {
   std::uint64_t hash = 0;    ///< 0: no camera
 };
 
-/// scene: of JudgedCamera; empty: all scenes.
+/// scene: of JudgedCamera; empty: all scenes but kBalls.
 Result<FlipSums> sum_flip(BenchContext& context, SharedReflections& shared, std::string_view scene, std::size_t first,
                           std::size_t second) {
   FlipSums sums;
   for (std::size_t index = 0; index < kCameras.size(); ++index) {
-    if (!scene.empty() && scene != kCameras[index].scene) continue;
+    if (scene.empty() ? kCameras[index].scene == kBalls : kCameras[index].scene != scene) continue;
     const auto errors = judge_reflections(context, shared, index);
     if (!errors) return errors.error();
     if (*errors == nullptr) continue;
@@ -250,7 +267,7 @@ void add_reflection_error_benches(BenchRegistry& registry) {
     row.run = [=](BenchContext& context) -> Result<BenchValue> {
       const auto sums = sum_flip(context, *shared, scene, first, second);
       if (!sums) return sums.error();
-      if (sums->hash == 0) return skipped_row(no_courtyard());
+      if (sums->hash == 0) return skipped_scene(scene);
       return single_value(value(*sums), sums->hash);
     };
     registry.add(std::move(row));
@@ -258,8 +275,8 @@ void add_reflection_error_benches(BenchRegistry& registry) {
   const auto mean = [](const FlipSums& sums) { return sums.second > 0.0 ? sums.first / sums.second : 0.0; };
   const auto worst = [](const FlipSums& sums) { return sums.worst_ratio; };
   add("flip_full_over_cube", "", kAll, kCube, 0.45, mean);
-  for (const char* scene : {"courtyard", "wet_street"})
-    add(std::string("flip_full_over_cube.") + scene, scene, kAll, kCube, std::nullopt, mean);
+  for (const std::string scene : {"courtyard", "wet_street", "balls"})
+    add("flip_full_over_cube." + scene, scene, kAll, kCube, std::nullopt, mean);
   add("worst_camera_full_over_cube", "", kAll, kCube, 1.0, worst);
   add("flip_constant_over_hierarchical_march", "", kConstantMarch, kAll, std::nullopt, mean);
 }
