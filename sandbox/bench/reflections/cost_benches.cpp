@@ -31,16 +31,17 @@ constexpr std::uint32_t kReflectionCostHeight = 360;
 /// Steps of the chain, in its order. Each pass of the module in a settled frame belongs to one.
 struct ChainStep {
   const char* name;                        ///< in the row's id
-  std::array<const char*, 3> passes = {};  ///< beginnings of the names of its passes; unused ones are null
+  std::array<const char*, 4> passes = {};  ///< beginnings of the names of its passes; unused ones are null
 };
-constexpr std::array<ChainStep, 7> kChainSteps = {{{"surfaces", {"reflection_start", "reflection_surfaces"}},
-                                                   {"screen_space", {"reflection_screen_space"}},
-                                                   {"proxies", {"reflection_proxies"}},
-                                                   {"temporal", {"reflection_temporal"}},
-                                                   {"glossy", {"reflection_dilate", "reflection_blur"}},
-                                                   {"sharpen", {"reflection_sharpen", "reflection_upscale"}},
-                                                   {"composite", {"reflection_composite"}}}};
-constexpr std::size_t kFirstPostStep = 3;  // everything after the two searches
+constexpr std::array<ChainStep, 7> kChainSteps = {
+    {{"surfaces", {"reflection_start", "reflection_surfaces", "reflection_strong_tiles", "reflection_mirror_tiles"}},
+     {"surroundings", {"reflection_surroundings"}},
+     {"screen_space", {"reflection_screen_space"}},
+     {"proxies", {"reflection_proxies"}},
+     {"temporal", {"reflection_temporal"}},
+     {"glossy", {"reflection_dilate", "reflection_blur"}},
+     {"composite", {"reflection_composite"}}}};
+constexpr std::size_t kFirstPostStep = 4;  // everything after the two searches
 
 std::optional<std::size_t> reflection_step_of(std::string_view pass) {
   for (std::size_t step = 0; step < kChainSteps.size(); ++step)

@@ -16,6 +16,7 @@ layout(set = 0, binding = 2) uniform usampler2D normal_image;
 layout(set = 0, binding = 3) uniform sampler2D depth_image;
 layout(set = 0, binding = 4) uniform sampler2D color_image;
 layout(set = 0, binding = 5) uniform sampler2D surface_image;
+layout(set = 0, binding = 7) uniform usampler2D mirror_image;
 layout(set = 0, binding = 6, scalar) writeonly buffer Lights { vec4 lights[]; };
 
 #include "shaders/reflections/passes/upscale.glsl"
@@ -25,6 +26,8 @@ void main() {
   if (any(greaterThanEqual(uvec2(pixel), view.size))) return;
   float depth = texelFetch(depth_image, pixel, 0).r;
   vec3 position = relative_position(view, vec2(pixel), max(depth, 1e-9));
-  Mirrored m = mirrored_at(pixel, position, unpack_normal(texelFetch(normal_image, pixel, 0).x));
+  uvec2 normals = texelFetch(normal_image, pixel, 0).xy;
+  MirrorPixel p = mirror_pixel(pixel, depth, position, unpack_normal(normals.y), 1.0 / 255.0);
+  Mirrored m = mirrored_at(pixel, p, unpack_normal(normals.x));
   lights[uint(pixel.y) * view.size.x + uint(pixel.x)] = vec4(m.light, m.confidence);
 }

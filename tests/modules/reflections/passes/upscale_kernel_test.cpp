@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <functional>
 #include <vector>
@@ -32,10 +33,12 @@ class Upscale : public KernelTest {
     c = reflection_constants(seen.view, scale);
     std::vector<vec4> color;
     std::vector<ByteTexel> surface;
+    std::vector<uvec2> mirrors;  // mirror_surface_api.glsl: depth; share, and the first pixel of the block
     for (std::uint32_t y = 0; y < c.size.y; ++y)
       for (std::uint32_t x = 0; x < c.size.x; ++x) {
         const TexelReflection r = reflection_of({x, y});
         color.push_back(r.color);
+        mirrors.emplace_back(std::bit_cast<std::uint32_t>(seen.depth[seen.at(x * scale, y * scale)]), 255u);
         const auto cm = static_cast<std::uint32_t>(std::lround(100.0 * r.distance_m));
         surface.push_back({0, static_cast<std::uint8_t>(r.reflects ? 1 : 0), static_cast<std::uint8_t>(cm % 256),
                            static_cast<std::uint8_t>(cm / 256)});
@@ -47,6 +50,7 @@ class Upscale : public KernelTest {
     kernel.sampled_image(3, gpu::Format::r32_float, seen.view.width, seen.view.height, seen.depth);
     kernel.sampled_image(4, gpu::Format::rgba32_float, c.size.x, c.size.y, color);
     kernel.sampled_image(5, gpu::Format::rgba8_unorm, c.size.x, c.size.y, surface);
+    kernel.sampled_image(7, gpu::Format::rg32_uint, c.size.x, c.size.y, mirrors);
     kernel.output(6, seen.depth.size() * sizeof(vec4));
     kernel.run((seen.view.width + 7) / 8, (seen.view.height + 7) / 8);
     return kernel.read<vec4>(6);
