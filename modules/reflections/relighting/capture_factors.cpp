@@ -198,10 +198,13 @@ void CaptureFactors::update(const World& world, const ReflectionCaptures& captur
   if (captures_version_ != captures.version || recaptures_.size() != proxies + probes)
     recaptures_.assign(proxies + probes, {});
   recaptures_changed_ = false;
-  now_.assign(proxies + probes, {});
+  today_.assign(proxies + probes, {});
   captures_version_ = captures.version;
   places_version_ = places_version;
   changed_ = std::move(changed);
+  changed_entities_.clear();
+  for (const Changed& light : changed_) changed_entities_.push_back(light.now.light.index);
+  std::ranges::sort(changed_entities_);
   ++version_;
   all_cells_ = proxies * kProxyCells * kProxyCells + probes * kProbeCells * kProbeCells;
   proxies_.assign(proxies, {});
@@ -243,42 +246,48 @@ void CaptureFactors::update_all(const World& world, const ReflectionCaptures& ca
         std::ranges::count_if(*all, [](const CaptureFactor& one) { return one.error > kMostCaptureError; }));
 }
 
-double CaptureFactors::unit_then(const Surfaces& surfaces, const Changed& light, std::size_t cell) {
-  if (light.captured >= units_.size() || light.then.emitted == vec3(0.0f)) return 0.0;
-  std::vector<float>& units = units_[light.captured];
-  if (units.empty()) units.assign(all_cells_, std::numeric_limits<float>::quiet_NaN());
-  float& unit = units[surfaces.first + cell];
-  if (std::isnan(unit)) {
-    unit = static_cast<float>(unit_illuminance(light.then, surfaces.patches[cell]));
+std::span<const float> CaptureFactors::units_then(const Surfaces& surfaces, const Changed& light) {
+  if (light.captured >= units_.size() || light.then.emitted == vec3(0.0f)) return {};
+  std::vector<float>& all = units_[light.captured];
+  if (all.empty()) all.assign(all_cells_, std::numeric_limits<float>::quiet_NaN());
+  const std::span<float> units = std::span(all).subspan(surfaces.first, surfaces.patches.size());
+  for (std::size_t cell = 0; cell < units.size(); ++cell) {
+    if (!std::isnan(units[cell])) continue;
+    units[cell] = static_cast<float>(unit_illuminance(light.then, surfaces.patches[cell]));
     ++evaluations_;
   }
-  return static_cast<double>(unit);
+  return units;
 }
 
 CaptureFactor CaptureFactors::factor_of(const Surfaces& surfaces, const CapturedParts& parts, std::size_t row) {
   const std::size_t cells = surfaces.patches.size();
   if (cells == 0 || parts.lamps_lux.size() != cells) return {};
   std::vector<dvec3> now(parts.lamps_lux.begin(), parts.lamps_lux.end());
-  Recapture& today = now_[row];
+  Today& today = today_[row];
   std::vector<Change> changes;
-  for (const Changed& light : changed_) {
+  for (std::size_t i = 0; i < changed_.size(); ++i) {
+    const Changed& light = changed_[i];
     if (!surfaces.counts(light.captured < units_.size() ? light.then.light : light.now.light)) continue;
-    const bool elsewhere = !light.then.same_place(light.now) || light.then.emitted == vec3(0.0f);
     Change& all = changes.emplace_back();
-    for (std::size_t cell = 0; cell < cells; ++cell) {
-      const double unit = unit_then(surfaces, light, cell);
-      double today_unit = unit;
-      if (light.now.emitted == vec3(0.0f)) {
-        today_unit = 0.0;
-      } else if (elsewhere) {
-        today_unit = unit_illuminance(light.now, surfaces.patches[cell]);
-        ++evaluations_;
-      }
-      const Change change{unit * dvec3(light.then.emitted), today_unit * dvec3(light.now.emitted)};
-      now[cell] += change.now - change.then;
-      all.then += change.then, all.now += change.now;
+    const std::span<const float> units = units_then(surfaces, light);
+    const dvec3 emitted_then(light.then.emitted), emitted_now(light.now.emitted);
+    const bool stays = !units.empty() && light.then.same_place(light.now);
+    const dvec3 change = (stays ? emitted_now : dvec3(0.0)) - emitted_then;
+    double sum = 0.0;
+    for (std::size_t cell = 0; cell < units.size(); ++cell) {
+      const auto unit = static_cast<double>(units[cell]);
+      now[cell] += unit * change;
+      sum += unit;
     }
-    today.lamps.push_back({light.now, all.now});
+    all = {sum * emitted_then, stays ? sum * emitted_now : dvec3(0.0)};
+    if (!stays && light.now.emitted != vec3(0.0f))
+      for (std::size_t cell = 0; cell < cells; ++cell) {
+        const dvec3 lux = unit_illuminance(light.now, surfaces.patches[cell]) * emitted_now;
+        ++evaluations_;
+        now[cell] += lux;
+        all.now += lux;
+      }
+    today.lamps.emplace_back(i, all.now);
   }
   for (dvec3& lux : now) lux = glm::max(lux, dvec3(0.0));
   const Recapture& before = recaptures_[row];
@@ -290,24 +299,25 @@ CaptureFactor CaptureFactors::factor_of(const Surfaces& surfaces, const Captured
     if (!surfaces.counts(light.captured < units_.size() ? light.then.light : light.now.light)) continue;
     Change change = changes[lamp++];
     CapturedLightState then = light.then;
-    for (const Lamp& past : before.lamps)
-      if (before.noted && past.state.light == light.now.light) then = past.state, change.then = past.lux;
+    const auto past = std::ranges::lower_bound(before.lamps, light.now.light.index, {}, &lamp_index);
+    if (past != before.lamps.end() && past->state.light == light.now.light) then = past->state, change.then = past->lux;
     shares.add(change, turned(then, light.now, center));
   }
   // Lamps that are as at the bake, but were not when the capture was made.
   for (const Lamp& past : before.lamps)
-    if (std::ranges::find(today.lamps, past.state.light, [](const Lamp& lamp) { return lamp.state.light; }) ==
-        today.lamps.end())
-      shares.add({past.lux, dvec3(0.0)}, 1.0);
+    if (!std::ranges::binary_search(changed_entities_, past.state.light.index)) shares.add({past.lux, dvec3(0.0)}, 1.0);
   today.lux.assign(now.begin(), now.end());
   today.lit = static_cast<float>(shares.lit_now());
   return shares.finish(cells_);
 }
 
 void CaptureFactors::note_recapture(std::size_t row) {
-  if (row >= now_.size() || now_[row].lux.empty()) return;
-  recaptures_[row] = now_[row];
-  recaptures_[row].noted = true;
+  if (row >= today_.size() || today_[row].lux.empty()) return;
+  const Today& today = today_[row];
+  Recapture& made = recaptures_[row];
+  made = {.noted = true, .lux = today.lux, .lamps = {}, .lit = today.lit};
+  for (const auto& [index, lux] : today.lamps) made.lamps.push_back({changed_[index].now, lux});
+  std::ranges::sort(made.lamps, {}, &lamp_index);
   // Before the next update, it is not asked for a second time.
   CaptureFactor& noted = row < proxies_.size() ? proxies_[row] : probes_[row - proxies_.size()];
   if (noted.error > kMostCaptureError) --outdated_;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "engine/ecs/world.h"
@@ -72,27 +73,37 @@ class CaptureFactors {
     CapturedLightState state;
     dvec3 lux = dvec3(0.0);  ///< its illuminance of all cells together
   };
-  /// A capture that was made after the bake, or one as it would be made now.
+  [[nodiscard]] static std::uint32_t lamp_index(const Lamp& lamp) { return lamp.state.light.index; }
+  /// What a capture would be if it were made now. Without cells if nothing has changed.
+  struct Today {
+    std::vector<vec3> lux;                             ///< CapturedParts::lamps_lux
+    std::vector<std::pair<std::size_t, dvec3>> lamps;  ///< index into `changed_` and Lamp::lux
+    float lit = 0.0f;                                  ///< CapturedParts::lit
+  };
+  /// A capture that was made after the bake.
   struct Recapture {
     bool noted = false;
-    std::vector<vec3> lux;    ///< CapturedParts::lamps_lux
-    std::vector<Lamp> lamps;  ///< those that differ from ReflectionCaptures::lights, also if they emit nothing
-    float lit = 0.0f;         ///< CapturedParts::lit
+    std::vector<vec3> lux;  ///< CapturedParts::lamps_lux
+    std::vector<Lamp>
+        lamps;  ///< by entity index: those that differ from ReflectionCaptures::lights, also if they emit nothing
+    float lit = 0.0f;  ///< CapturedParts::lit
   };
   [[nodiscard]] static std::vector<Changed> changed_lights(const World& world, const ReflectionCaptures& captures);
   void forget_recaptures(std::size_t first, std::size_t end);
   void update_all(const World& world, const ReflectionCaptures& captures);
   [[nodiscard]] CaptureFactor factor_of(const Surfaces& surfaces, const CapturedParts& parts, std::size_t row);
-  [[nodiscard]] double unit_then(const Surfaces& surfaces, const Changed& light, std::size_t cell);
+  /// Of the capture's cells; empty: the light emitted nothing.
+  [[nodiscard]] std::span<const float> units_then(const Surfaces& surfaces, const Changed& light);
 
   std::vector<CaptureFactor> proxies_;
   std::vector<CaptureFactor> probes_;
   std::vector<vec4> cells_;
   std::vector<Changed> changed_;
+  std::vector<std::uint32_t> changed_entities_;  ///< indices of their entities, ascending
   /// By captured light: its unit illuminances at capture in all cells of all captures; NaN: not computed yet.
   std::vector<std::vector<float>> units_;
   std::vector<Recapture> recaptures_;  ///< by row
-  std::vector<Recapture> now_;         ///< by row: what a capture would be now; without cells if nothing has changed
+  std::vector<Today> today_;           ///< by row
   bool recaptures_changed_ = false;
   std::size_t all_cells_ = 0;
   std::size_t outdated_ = 0;

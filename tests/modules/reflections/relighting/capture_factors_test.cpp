@@ -131,6 +131,14 @@ TEST_F(Captured, lights_as_captured_have_no_factors_and_compute_nothing) {
   world.get<Light>(captures.lights[7].light).intensity *= 0.5f;
   update();
   EXPECT_EQ(factors.evaluations(), 50 * kCells) << "kept";
+  const auto fade = [&] {
+    for (const CapturedLightState& light : captures.lights) world.get<Light>(light.light).intensity *= 0.9f;
+    const auto start = std::chrono::steady_clock::now();
+    update();
+    return std::to_string(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+  };
+  RecordProperty("first_fade_of_1024_lights_ms", fade());
+  RecordProperty("next_fade_of_1024_lights_ms", fade());
 }
 
 TEST_F(Captured, one_factor_for_all_lights_is_that_of_the_capture) {
