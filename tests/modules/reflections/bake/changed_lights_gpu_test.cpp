@@ -65,8 +65,10 @@ struct ChangedHall : LampHall {
   }
 };
 
+// Hard case: reflections.lights_changed
 TEST_F(ChangedHall, kept_captures_follow_lights_that_dim_brighten_move_come_and_go) { judge_all(""); }
 
+// Hard case: reflections.lights_changed_emission
 TEST_F(ChangedHall, kept_captures_follow_lights_beside_panels_that_shine) {
   add_panels();
   judge_all("panels, ");

@@ -112,6 +112,7 @@ TEST_F(Recaptures, a_probe_is_captured_again_a_face_or_a_mip_a_frame) {
   EXPECT_LT(unlike, all / 20) << "GPU and CPU prefilter alike, each face is where it was";
 }
 
+// Hard case: reflections.dark_at_capture
 TEST_F(Recaptures, what_was_dark_at_capture_is_lit_within_60_frames) {
   scale_lamps(0.0f);
   capture_again();

@@ -111,6 +111,7 @@ TEST(UnitIlluminance, is_the_mean_over_the_patch) {
   EXPECT_EQ(unit_illuminance(sun, LitPatch{}), 0.0) << "a patch without size";
 }
 
+// Hard case: reflections.lights_1024
 TEST_F(Captured, lights_as_captured_have_no_factors_and_compute_nothing) {
   for (int i = 0; i < 50; ++i) wall(5.0 * i);
   for (int i = 0; i < 1024; ++i) lamp({0.25 * i, 2.0, 2.0});
@@ -154,6 +155,7 @@ TEST_F(Captured, one_factor_for_all_lights_is_that_of_the_capture) {
   }
 }
 
+// Hard case: reflections.light_added_again
 TEST_F(Captured, a_light_that_is_destroyed_and_added_again_leaves_all_as_it_was) {
   wall(0.0);
   lamp({1.0, 2.0, 2.0});
@@ -195,6 +197,7 @@ TEST_F(Captured, a_small_move_does_not_make_the_capture_outdated) {
   EXPECT_EQ(factors.outdated(), 0u);
 }
 
+// Hard case: reflections.light_not_finite
 TEST_F(Captured, numbers_that_are_not_finite_are_lights_that_are_off) {
   const float nan = std::numeric_limits<float>::quiet_NaN(), infinite = std::numeric_limits<float>::infinity();
   wall(0.0);
@@ -228,6 +231,7 @@ TEST_F(Captured, numbers_that_are_not_finite_are_lights_that_are_off) {
     for (int c = 0; c < 4; ++c) EXPECT_TRUE(std::isfinite(cell[c]) && cell[c] >= 0.0f && cell[c] <= kMostCaptureFactor);
 }
 
+// Hard case: reflections.dark_at_capture
 TEST_F(Captured, what_was_dark_is_outdated_when_it_is_lit) {
   wall(0.0);
   const Entity lamp_then = lamp({1.0, 2.0, 2.0});
@@ -246,6 +250,7 @@ TEST_F(Captured, what_was_dark_is_outdated_when_it_is_lit) {
   EXPECT_EQ(factors.outdated(), 0u) << "beside much light of its own, it is not seen";
 }
 
+// Hard case: reflections.no_lights
 TEST_F(Captured, without_lights_and_behind_lights_there_is_no_factor) {
   wall(0.0);
   const Entity behind = lamp({0.0, 1.0, -3.0});
@@ -259,6 +264,7 @@ TEST_F(Captured, without_lights_and_behind_lights_there_is_no_factor) {
   EXPECT_EQ(factors.outdated(), 0u);
 }
 
+// Hard case: reflections.light_turned
 TEST_F(Captured, a_directional_light_that_turns_scales_by_the_cosine) {
   wall(0.0);
   Light sun;
