@@ -57,11 +57,12 @@ std::string count_of(std::size_t count, const char* one, const char* many) {
 }
 
 std::string summary_of(const ReflectionCaptures& captures, double seconds) {
-  const auto kind = [](const CapturedLayers& layers, const char* one, const char* many) {
-    const std::string side = std::to_string(layers.side);
-    return count_of(layers.count, one, many) + (layers.count == 0 ? "" : " of " + side + "x" + side + " texels");
+  const auto kind = [](std::size_t count, std::uint32_t texels, const char* one, const char* many) {
+    const std::string side = std::to_string(texels);
+    return count_of(count, one, many) + (count == 0 ? "" : " of " + side + "x" + side + " texels");
   };
-  return kind(captures.proxies, "proxy", "proxies") + ", " + kind(captures.probes, "probe", "probes") +
+  return kind(captures.proxy_entities.size(), captures.proxies.side, "proxy", "proxies") + ", " +
+         kind(captures.probe_entities.size(), captures.probes.side, "probe", "probes") +
          formatted(" captured in %.1f s\n", seconds);
 }
 
