@@ -162,7 +162,8 @@ class GrassModule final : public Module {
       return {true, "grass disappears"};
     if (surfaces == 0) return {false, "no surface grows grass"};
     if (view != nullptr) {
-      if (view->static_only && view->purpose != ViewPurpose::capture) return {false, "grass moves"};
+      if (view->static_only && !world.resource<CapturedExtras>().views.contains(view->id.value))
+        return {false, "grass moves"};
       const auto* visible = world.try_view_resource<VisiblePatches>(view->id);
       if (world.resource<GrassGrowthSettings>().density_scale == 0.0f) return {false, "grass.density_scale=0"};
       if (visible == nullptr || visible->patches.empty()) return {false, "no grass in view"};

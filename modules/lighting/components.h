@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,8 @@ struct FlameSource {
 struct CapturedExtras {
   /// By module: a hash of all that decides what the module draws into a capture. Reads components only.
   std::map<std::string, std::function<std::uint64_t(const World& world)>> content;
+  /// Ids of views (ViewId) that show it although they are ViewSettings::static_only: those that draw captures.
+  std::set<std::uint32_t> views;
 };
 
 }  // namespace gloam

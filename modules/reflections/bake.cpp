@@ -126,9 +126,15 @@ class WorldCaptures {
 class Bake {
  public:
   Bake(Renderer& renderer, World& world, const BakeSettings& settings)
-      : renderer_(renderer), world_(world), settings_(settings) {}
+      : renderer_(renderer), world_(world), settings_(settings) {
+    auto& extras = world_.ensure_resource<CapturedExtras>();
+    for (std::uint32_t i = 0; i < kBakeViews; ++i) extras.views.insert(kFirstBakeView.value + i);
+  }
   ~Bake() {
-    for (std::uint32_t i = 0; i < kBakeViews; ++i) renderer_.release_view(world_, ViewId{kFirstBakeView.value + i});
+    for (std::uint32_t i = 0; i < kBakeViews; ++i) {
+      renderer_.release_view(world_, ViewId{kFirstBakeView.value + i});
+      world_.resource<CapturedExtras>().views.erase(kFirstBakeView.value + i);
+    }
   }
   Bake(const Bake&) = delete;
   Bake& operator=(const Bake&) = delete;

@@ -11,6 +11,7 @@
 
 #include "engine/frame/mip_chain_passes.h"
 #include "engine/scene/components.h"
+#include "modules/lighting/components.h"
 #include "modules/reflections/bake/cube.h"
 #include "modules/reflections/bake/probe_map.h"
 #include "modules/reflections/bake/proxy_capture.h"
@@ -208,6 +209,7 @@ void add_recapture_view(World& world, const ViewSettings& main, const RecaptureS
     if (transform == nullptr) return;
     due.view = companions.add(face_view(due.step, dvec3(transform->matrix[3]), captures.probes.side / 2, unit));
   }
+  if (due.view.value != 0) world.ensure_resource<CapturedExtras>().views.insert(due.view.value);
   due_of(world, main.id) = due;
 }
 
