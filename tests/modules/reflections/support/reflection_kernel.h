@@ -8,6 +8,8 @@
 
 #include "engine/frame/transfers/upload.h"
 #include "engine/math/packing.h"
+#include "shaders/lighting/lighting_shared.h"
+#include "shaders/lighting/probes_shared.h"
 #include "shaders/reflections/shaders.h"
 #include "tests/modules/reflections/support/synthetic_view.h"
 #include "tests/support/kernel.h"
@@ -28,25 +30,6 @@ using ByteTexel = std::array<std::uint8_t, 4>;
   values.reserve(texels.size());
   for (const HalfTexel& texel : texels) values.push_back(from_half(texel));
   return values;
-}
-
-/// The mirror surfaces of a view, as passes/mirror_surfaces.comp finds them, by texel.
-[[nodiscard]] inline std::vector<uvec2> find_mirrors(gpu::Device& device, const SyntheticView& seen,
-                                                     const shaders::ReflectionConstants& constants) {
-  const std::uint32_t w = seen.view.width, h = seen.view.height;
-  Kernel kernel(device, shaders::reflections::mirror_surfaces_comp);
-  kernel.input(0, std::vector{view_constants(seen.view)});
-  kernel.input(1, std::vector{constants});
-  kernel.sampled_image(2, gpu::Format::rg32_uint, w, h, seen.normals);
-  kernel.sampled_image(3, gpu::Format::rgba8_unorm, w, h, seen.material);
-  kernel.sampled_image(4, gpu::Format::r32_float, w, h, seen.depth);
-  kernel.output_image(5, gpu::Format::rg32_uint, constants.size.x, constants.size.y);
-  kernel.output_image(6, gpu::Format::rgba8_unorm, constants.size.x, constants.size.y);
-  const uvec2 tiles = (constants.size + 7u) / 8u;
-  // The list is not tested here: with roughness that is not 0, the kernel appends no tile.
-  for (const std::uint32_t binding : {7u, 8u, 9u}) kernel.output(binding, std::uint64_t{4} * tiles.x * tiles.y + 16);
-  kernel.run(tiles.x, tiles.y);
-  return kernel.read<uvec2>(5);
 }
 
 /// Binds what mirror_surface_api.glsl needs, with all tiles in the list, and runs the kernel. list: its first binding.
@@ -103,5 +86,36 @@ class FlatLayers {
   gpu::Device& device_;
   gpu::ImageHandle image_;
 };
+
+/// Binds what surroundings_api.glsl declares, for a world without probes and without light of the sky.
+inline void bind_no_surroundings(Kernel& kernel, std::uint32_t environment, const FlatLayers& no_probes) {
+  kernel.input(environment, std::vector<shaders::EnvironmentConstants>(1));
+  kernel.input(24, std::vector{shaders::SurroundingsConstants{.fog_through = 1.0f}});
+  kernel.input(25, std::vector<shaders::ProbeRow>(1));
+  kernel.sampled_image(26, no_probes.image(), gpu::Filter::linear);
+  kernel.input(27, std::vector<vec4>(1));
+}
+
+/// The mirror surfaces of a view, as passes/surroundings.comp finds them, by texel.
+[[nodiscard]] inline std::vector<uvec2> find_mirrors(gpu::Device& device, const SyntheticView& seen,
+                                                     const shaders::ReflectionConstants& constants) {
+  const std::uint32_t w = seen.view.width, h = seen.view.height;
+  const FlatLayers no_probes(device, 1, 1, {vec4(0.0f)});
+  Kernel kernel(device, shaders::reflections::surroundings_comp);
+  kernel.input(0, std::vector{view_constants(seen.view)});
+  kernel.input(1, std::vector{constants});
+  kernel.sampled_image(2, gpu::Format::rgba8_unorm, w, h, std::vector<std::uint32_t>(seen.depth.size()));
+  kernel.sampled_image(3, gpu::Format::rg32_uint, w, h, seen.normals);
+  kernel.sampled_image(4, gpu::Format::rgba8_unorm, w, h, seen.material);
+  kernel.sampled_image(5, gpu::Format::r32_float, w, h, seen.depth);
+  bind_no_surroundings(kernel, 6, no_probes);
+  for (const std::uint32_t binding : {7u, 8u}) kernel.output_image(binding, gpu::Format::rgba16_float, w, h);
+  kernel.output_image(11, gpu::Format::rg32_uint, constants.size.x, constants.size.y);
+  kernel.output_image(12, gpu::Format::rgba8_unorm, constants.size.x, constants.size.y);
+  const uvec2 tiles = (constants.size + 7u) / 8u;
+  for (const std::uint32_t binding : {13u, 14u}) kernel.output(binding, std::uint64_t{4} * tiles.x * tiles.y);
+  run_over_tiles(kernel, constants, 9);
+  return kernel.read<uvec2>(11);
+}
 
 }  // namespace gloam::test

@@ -35,6 +35,7 @@ class TraceKernelTest : public KernelTest {
   [[nodiscard]] Traced trace(const SyntheticView& seen, const shaders::ReflectionConstants& c, bool hierarchical,
                              const std::vector<vec4>& lit) {
     const std::uint32_t w = seen.view.width, h = seen.view.height;
+    const FlatLayers no_probes(device(), 1, 1, {vec4(0.0f)});
     Kernel kernel(device(), shaders::reflections::screen_space_rays_comp, {{"kHierarchical", hierarchical ? 1u : 0u}});
     kernel.input(0, std::vector{view_constants(seen.view)});
     kernel.input(1, std::vector{c});
@@ -45,6 +46,10 @@ class TraceKernelTest : public KernelTest {
     kernel.sampled_image(6, gpu::Format::rgba32_float, w, h, lit);
     kernel.output_image(7, gpu::Format::rgba16_float, c.size.x, c.size.y);
     kernel.output_image(8, gpu::Format::rgba8_unorm, c.size.x, c.size.y);
+    kernel.sampled_image(14, gpu::Format::rgba8_unorm, w, h, std::vector<std::uint32_t>(seen.depth.size()));
+    kernel.sampled_image(15, gpu::Format::rgba8_unorm, w, h, seen.material);
+    kernel.sampled_image(16, gpu::Format::rgba32_float, w, h, std::vector<vec4>(seen.depth.size()));
+    bind_no_surroundings(kernel, 17, no_probes);
     run_over_tiles(kernel, c, 9);
     Traced traced{c.size, from_half(kernel.read<HalfTexel>(7)), {}};
     for (const ByteTexel& t : kernel.read<ByteTexel>(8))
