@@ -98,7 +98,7 @@ SurroundingProbes surrounding_probes(FrameBuilder& frame, std::span<const Captur
 /// The surfaces of the view that reflect. On the board from PassPhase::lists to shading.
 struct FoundSurfaces {
   ReflectionUniforms uniforms;
-  MirrorTiles tiles;
+  MirrorSurfaces surfaces;
 };
 
 /// Tiers 1 and 2, or the mirrored picture in their place.
@@ -191,15 +191,15 @@ void add_reflection_list_passes(FrameBuilder& frame) {
   const ReflectionPlan* plan = frame.find<ReflectionPlan>();
   if (plan == nullptr || plan->no_specular || plan->traced != nullptr) return;
   const ReflectionUniforms uniforms = upload_uniforms(frame, *plan);
-  frame.put(FoundSurfaces{uniforms, add_surface_passes(frame, uniforms)});
+  frame.put(FoundSurfaces{uniforms, add_surface_passes(frame, uniforms, plan->mirror)});
 }
 
 void add_reflection_passes(FrameBuilder& frame, Staging& staging, CaptureFactors& factors) {
   const ReflectionPlan* plan = frame.find<ReflectionPlan>();
   if (plan == nullptr || plan->no_specular) return;
   if (plan->traced != nullptr) return add_traced_light_pass(frame, upload_traced(frame, staging, *plan->traced));
-  const auto& [uniforms, tiles] = frame.get<FoundSurfaces>();
-  const MirrorSurfaces surfaces = add_surroundings_passes(frame, uniforms, tiles, plan->mirror);
+  auto& [uniforms, surfaces] = frame.get<FoundSurfaces>();
+  add_surroundings_passes(frame, uniforms, surfaces, plan->mirror);
   if (plan->mirror) return add_mirror_passes(frame, staging, *plan, uniforms, surfaces, factors);
   frame.put(ReflectionHandles{.uniforms = uniforms, .hits = {}, .light = {}, .mirrors = {}});
 }
@@ -209,7 +209,7 @@ void list_reflection_pipelines(const ReflectionKnobs& knobs, bool direct, bool b
   const bool planar = knobs.mode == ReflectionKnobs::Mode::planar;
   if (knobs.mode == ReflectionKnobs::Mode::off) return;
   const auto add = [&](const ComputeProgram& program) { list.push_back(pipeline_desc(program, "reflections")); };
-  add(surface_program(probes));
+  add(surface_program(knobs.mirror() || planar, probes));
   for (const bool mirrors : {false, true}) add(list_tiles_program(mirrors));
   add(surroundings_program(knobs.mirror() || planar, probes));
   if (knobs.recapture)

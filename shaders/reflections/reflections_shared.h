@@ -4,7 +4,6 @@
 #define GLOAM_SHADERS_REFLECTIONS_REFLECTIONS_SHARED_H
 
 #include "shaders/common/prelude.h"
-#include "shaders/lighting/probes_shared.h"
 
 GLOAM_SHARED_BEGIN
 

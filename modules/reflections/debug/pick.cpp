@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "modules/lighting/outputs.h"
 #include "modules/reflections/debug/pick.h"
 
 #include <algorithm>
@@ -13,6 +12,7 @@
 #include "engine/render/outputs.h"
 #include "engine/render/readback/geometry_picture.h"
 #include "engine/scene/resources.h"
+#include "modules/lighting/outputs.h"
 #include "modules/reflections/culling/placed.h"
 #include "modules/reflections/culling/rooms.h"
 #include "modules/reflections/culling/tiles.h"

@@ -57,10 +57,17 @@ void list_tiles(FrameBuilder& frame, const ReflectionUniforms& uniforms, MirrorT
   pass.dispatch_over(uvec2(tiles.count, 1));
 }
 
+/// An image of the mirror surfaces. Without mirrored images shaders write none, and it has one texel.
+ImageRef mirror_image(FrameBuilder& frame, const char* name, gpu::Format format, bool mirrors, std::uint32_t scale) {
+  const std::uint32_t whole = std::max(frame.view().width, frame.view().height);
+  return create_view_image(frame, name, format, mirrors ? scale : whole);
+}
+
 }  // namespace
 
-ComputeProgram surface_program(std::size_t probes) {
-  return {shaders::reflections::surfaces_comp, {{"kProbes", probe_constant(probes)}}};
+ComputeProgram surface_program(bool mirrors, std::size_t probes) {
+  return {shaders::reflections::surfaces_comp,
+          {{"kMirrors", mirrors ? 1u : 0u}, {"kProbes", probe_constant(probes)}}};
 }
 
 ComputeProgram list_tiles_program(bool mirrors) {
@@ -72,31 +79,34 @@ ComputeProgram surroundings_program(bool mirrors, std::size_t probes) {
           {{"kMirrors", mirrors ? 1u : 0u}, {"kProbes", probe_constant(probes)}}};
 }
 
-MirrorTiles add_surface_passes(FrameBuilder& frame, const ReflectionUniforms& uniforms) {
-  MirrorTiles tiles;
+MirrorSurfaces add_surface_passes(FrameBuilder& frame, const ReflectionUniforms& uniforms, bool mirrors) {
+  MirrorSurfaces found;
+  MirrorTiles& tiles = found.tiles;
   const uvec2 size = uniforms.constants.size;
   const uvec2 groups = (size + std::uint32_t{GLOAM_REFLECTION_GROUP} - 1u) / std::uint32_t{GLOAM_REFLECTION_GROUP};
   tiles.count = groups.x * groups.y;
   start_lists(frame, tiles);
   {
-    ComputePass pass(frame, "reflection_surfaces", surface_program(frame.get<SurroundingProbes>().rows.size()));
+    ComputePass pass(frame, "reflection_surfaces",
+                     surface_program(mirrors, frame.get<SurroundingProbes>().rows.size()));
     pass.read("reflection", uniforms.block);
     read_geometry(pass, frame.get<GeometryOutputs>());
     read_surroundings(pass, frame);
-    const ImageRef far =
-        create_view_image(frame, "surroundings", gpu::Format::rgba16_float, uniforms.constants.scale);
+    const std::uint32_t scale = uniforms.constants.scale;
+    const ImageRef far = create_view_image(frame, "surroundings", gpu::Format::rgba16_float, scale);
     frame.put(SurroundingsOutput{pass.write("far_image", far)});
+    found.surface = pass.write("surface_image", mirror_image(frame, "reflection_surface", gpu::Format::rgba8_unorm,
+                                                             mirrors, scale));
     tiles.flags = pass.write("tile_flags", tiles.flags);
     pass.dispatch_over(size);
   }
   list_tiles(frame, uniforms, tiles, false);
-  return tiles;
+  return found;
 }
 
-MirrorSurfaces add_surroundings_passes(FrameBuilder& frame, const ReflectionUniforms& uniforms, MirrorTiles tiles,
-                                       bool mirrors) {
-  MirrorSurfaces found;
-  const uvec2 size(frame.view().width, frame.view().height);
+void add_surroundings_passes(FrameBuilder& frame, const ReflectionUniforms& uniforms, MirrorSurfaces& found,
+                             bool mirrors) {
+  MirrorTiles& tiles = found.tiles;
   {
     ComputePass pass(frame, "reflection_surroundings",
                      surroundings_program(mirrors, frame.get<SurroundingProbes>().rows.size()));
@@ -107,21 +117,14 @@ MirrorSurfaces add_surroundings_passes(FrameBuilder& frame, const ReflectionUnif
     lit.color = pass.write("lit_image", lit.color);
     const ImageRef ambient = create_view_image(frame, "strong_ambient", gpu::Format::rgba16_float);
     frame.put(StrongAmbient{pass.write("ambient_image", ambient)});
-    // Without mirrored images, the shader writes none of both.
-    const std::uint32_t divisor = mirrors ? uniforms.constants.scale : std::max(size.x, size.y);
-    const auto image = [&](const char* name, gpu::Format format) {
-      return create_view_image(frame, name, format, divisor);
-    };
-    tiles.image = pass.write("mirror_image", image("reflection_mirrors", gpu::Format::rg32_uint));
-    found.surface = pass.write("surface_image", image("reflection_surface", gpu::Format::rgba8_unorm));
+    tiles.image = pass.write("mirror_image", mirror_image(frame, "reflection_mirrors", gpu::Format::rg32_uint, mirrors,
+                                                          uniforms.constants.scale));
     tiles.roughness = pass.write("tile_roughness", tiles.roughness);
     tiles.flags = pass.write("tile_flags", tiles.flags);
     dispatch_listed_tiles(pass, tiles, GLOAM_LIST_STRONG);
   }
   if (mirrors) list_tiles(frame, uniforms, tiles, true);
   if (!mirrors) tiles.image = {};
-  found.tiles = tiles;
-  return found;
 }
 
 void dispatch_mirror_tiles(ComputePass& pass, const MirrorTiles& tiles, std::uint32_t list) {

@@ -11,18 +11,19 @@
 namespace gloam {
 
 /// probes: number of captured probes. mirrors: whether there are mirrored images.
-[[nodiscard]] ComputeProgram surface_program(std::size_t probes);
+[[nodiscard]] ComputeProgram surface_program(bool mirrors, std::size_t probes);
 [[nodiscard]] ComputeProgram list_tiles_program(bool mirrors);
 [[nodiscard]] ComputeProgram surroundings_program(bool mirrors, std::size_t probes);
 
-/// Puts SurroundingsOutput on the board, and lists the tiles that hold surfaces that reflect strongly.
-[[nodiscard]] MirrorTiles add_surface_passes(FrameBuilder& frame, const ReflectionUniforms& uniforms);
+/// Puts SurroundingsOutput on the board, and lists the tiles that hold surfaces that reflect strongly. mirrors: with
+/// the cleared MirrorSurfaces::surface.
+[[nodiscard]] MirrorSurfaces add_surface_passes(FrameBuilder& frame, const ReflectionUniforms& uniforms, bool mirrors);
 
 /// After lighting: adds the specular ambient light of surfaces that reflect strongly to LitOutput, but for what mirrored
 /// images take the place of, and puts StrongAmbient on the board. mirrors: also finds the surfaces that mirrored images
-/// serve, and lists their tiles; otherwise the result has no images.
-[[nodiscard]] MirrorSurfaces add_surroundings_passes(FrameBuilder& frame, const ReflectionUniforms& uniforms,
-                                                     MirrorTiles tiles, bool mirrors);
+/// serve (MirrorTiles::image), and lists their tiles.
+void add_surroundings_passes(FrameBuilder& frame, const ReflectionUniforms& uniforms, MirrorSurfaces& found,
+                             bool mirrors);
 
 /// Binds a list of tiles (GLOAM_LIST_…), as shaders/reflections/mirror_surface_api.glsl names it, and dispatches one
 /// workgroup per listed tile. The first function also binds the image of mirror surfaces.

@@ -9,7 +9,7 @@
 #include "engine/render/view.h"
 #include "modules/reflections/captures.h"
 #include "modules/reflections/relighting/capture_factors.h"
-#include "shaders/reflections/reflections_shared.h"
+#include "shaders/lighting/probes_shared.h"
 
 namespace gloam {
 

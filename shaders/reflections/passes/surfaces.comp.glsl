@@ -21,6 +21,9 @@ layout(set = 0, binding = 5) uniform sampler2D depth_image;
 layout(set = 0, binding = 6, scalar) uniform Environment { EnvironmentConstants environment; };
 layout(set = 0, binding = 7, rgba16f) uniform writeonly image2D far_image;
 layout(set = 0, binding = 8, scalar) buffer Flags { uint tile_flags[]; };  // GLOAM_TILE_… bits of each tile
+layout(set = 0, binding = 9, rgba8) uniform writeonly image2D surface_image;  // cleared: no texel has a reflection yet
+
+layout(constant_id = 0) const uint kMirrors = 1u;  // 0: there are no mirrored images
 
 #define GLOAM_SURROUNDINGS_BINDING 24
 #include "shaders/lighting/surroundings_api.glsl"
@@ -99,6 +102,7 @@ void main() {
   // A loop, not a condition: devices that are processors run both sides of a condition.
   for (bool weakly = depth > 0.0; weakly; weakly = false) light = weakly_mirrored(weak, depth);
   imageStore(far_image, texel, vec4(min(light, vec3(65504.0)), 1.0));
+  if (kMirrors != 0u) imageStore(surface_image, texel, vec4(0.0));
   uint row = (reflection.size.x + GLOAM_REFLECTION_GROUP - 1u) / GLOAM_REFLECTION_GROUP;
   if (any(strong)) atomicOr(tile_flags[gl_WorkGroupID.y * row + gl_WorkGroupID.x], GLOAM_TILE_STRONG);
 }

@@ -22,7 +22,6 @@ layout(set = 0, binding = 7, rgba16f) uniform image2D lit_image;
 layout(set = 0, binding = 8, rgba16f) uniform writeonly image2D ambient_image;  // see StrongAmbient
 
 layout(set = 0, binding = 11, rg32ui) uniform writeonly uimage2D mirror_image;
-layout(set = 0, binding = 12, rgba8) uniform writeonly image2D surface_image;  // 0: no reflection
 // Of each tile: the greatest roughness of a mirror surface, 1…255, or 0; GLOAM_TILE_… bits.
 layout(set = 0, binding = 13, scalar) buffer Roughness { uint tile_roughness[]; };
 layout(set = 0, binding = 14, scalar) buffer Flags { uint tile_flags[]; };
@@ -81,7 +80,6 @@ void main() {
   }
   if (kMirrors == 0u) return;
   imageStore(mirror_image, texel, uvec4(encode_mirror_surface(s, texel), 0u, 0u));
-  imageStore(surface_image, texel, vec4(0.0));
   if (flags == 0u) return;
   ivec2 place = texel / GLOAM_REFLECTION_GROUP;
   uint row = (reflection.size.x + GLOAM_REFLECTION_GROUP - 1u) / GLOAM_REFLECTION_GROUP;

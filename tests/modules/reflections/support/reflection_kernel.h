@@ -111,7 +111,6 @@ inline void bind_no_surroundings(Kernel& kernel, std::uint32_t environment, cons
   bind_no_surroundings(kernel, 6, no_probes);
   for (const std::uint32_t binding : {7u, 8u}) kernel.output_image(binding, gpu::Format::rgba16_float, w, h);
   kernel.output_image(11, gpu::Format::rg32_uint, constants.size.x, constants.size.y);
-  kernel.output_image(12, gpu::Format::rgba8_unorm, constants.size.x, constants.size.y);
   const uvec2 tiles = (constants.size + 7u) / 8u;
   for (const std::uint32_t binding : {13u, 14u}) kernel.output(binding, std::uint64_t{4} * tiles.x * tiles.y);
   run_over_tiles(kernel, constants, 9);
