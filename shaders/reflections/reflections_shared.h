@@ -19,7 +19,9 @@ struct ReflectionConstants {
   float reach_m;      // height above the reflecting surface up to which rays are followed
   float thickness_m;  // depth that surfaces are assumed to have behind their visible side
   // Glossy blur.
-  float blur_scale;      // standard deviation of the blur, texels, for spread 1 (per pixel roughness: and roughness 1)
+  float blur_scale;       // standard deviation of the core, texels, for spread 1 (per pixel roughness: and roughness 1)
+  float blur_tail;        // standard deviation of the tail, as a multiple of the core's; 0: there is no tail
+  float blur_tail_share;  // of the light, 0…1
   float blur_across;     // width of the blur along rows as a share of that along columns; per pixel roughness: at least
   uint pixel_roughness;  // 1: blur by the roughness of each surface; 0: one width for all, as in the paper
   uint blur_radius;      // most texels on each side, ≤ GLOAM_MOST_BLUR_RADIUS
@@ -76,9 +78,9 @@ struct ProxyTileConstants {
 GLOAM_SHARED_END
 
 // Flags of a tile of GLOAM_REFLECTION_GROUP texels' side.
-#define GLOAM_TILE_MIRROR 1u  // holds a surface that mirrored images serve
-#define GLOAM_TILE_BUMPY 2u   // whose shading normal is not vertical
-#define GLOAM_TILE_STRONG 4u  // holds a surface that reflects strongly
+#define GLOAM_TILE_MIRROR 1u       // holds a surface that mirrored images serve
+#define GLOAM_TILE_BUMPY 2u        // whose shading normal is not vertical
+#define GLOAM_TILE_STRONG 4u       // holds a surface that reflects strongly
 #define GLOAM_FLAT_MIRROR 0.99999  // y of the shading normal from which on it counts as vertical
 
 // Lists of tiles.
@@ -91,7 +93,7 @@ GLOAM_SHARED_END
 #define GLOAM_TILE_ROW 64
 #define GLOAM_PROXY_CELLS 4  // cells along each side of a proxy's image that have a factor of their own
 #define GLOAM_REFLECTION_GROUP 8
-#define GLOAM_BLUR_GROUP 64        // texels of a row or column that a workgroup blurs
-#define GLOAM_MOST_BLUR_RADIUS 32  // texels
+#define GLOAM_BLUR_GROUP 64         // texels of a row or column that a workgroup blurs
+#define GLOAM_MOST_BLUR_RADIUS 128  // texels
 
 #endif

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "modules/reflections/passes/glossy_blur.h"
 
+#include <utility>
+
 #include "modules/reflections/passes/mirror_surfaces.h"
 #include "shaders/reflections/shaders.h"
 
@@ -32,6 +34,17 @@ ImageRef add_dilation(FrameBuilder& frame, const ReflectionUniforms& uniforms, c
   return dilated;
 }
 
+/// The picture of a blur along columns: that of the core, and below it that of the tail.
+ImageRef create_columns_image(FrameBuilder& frame, const char* name, const uvec2& size) {
+  gpu::ImageDesc desc;
+  desc.name = name;
+  desc.module = frame.module();
+  desc.format = gpu::Format::rgba16_float;
+  desc.width = size.x;
+  desc.height = 2 * size.y;
+  return frame.graph().create_image(std::move(desc));
+}
+
 MirroredLight add_blur(FrameBuilder& frame, const ReflectionUniforms& uniforms, const MirrorTiles& tiles,
                        const MirroredLight& light, ImageRef dilated, bool columns) {
   const char* name = columns ? "reflection_blur_y" : "reflection_blur_x";
@@ -41,8 +54,9 @@ MirroredLight add_blur(FrameBuilder& frame, const ReflectionUniforms& uniforms, 
   pass.read("surface_image", light.surface);
   pass.read("color_image", light.color);
   if (is_direct(frame)) pass.read("tile_roughness", tiles.roughness);
-  const ImageRef blurred =
-      pass.write("blurred_image", create_view_image(frame, name, gpu::Format::rgba16_float, uniforms.constants.scale));
+  const ImageRef blurred = pass.write(
+      "blurred_image", columns ? create_columns_image(frame, name, uniforms.constants.size)
+                               : create_view_image(frame, name, gpu::Format::rgba16_float, uniforms.constants.scale));
   dispatch(pass, frame, uniforms.constants.size, tiles, columns);
   return {blurred, light.surface};
 }

@@ -65,6 +65,24 @@ Status run_lines(KernelRun& kernel, const GlossyImages& in, bool columns) {
   return kernel.run((lines.x + GLOAM_BLUR_GROUP - 1) / GLOAM_BLUR_GROUP, lines.y);
 }
 
+/// A Gaussian over the texels of the line that reflect.
+dvec4 gaussian_twin(const GlossyImages& in, const std::vector<vec4>& color, std::uint32_t x, std::uint32_t y,
+                    double sigma, std::int64_t reach, bool columns) {
+  dvec4 sum(0.0);
+  double total = 0.0;
+  const std::int64_t along = columns ? y : x, length = columns ? in.c.size.y : in.c.size.x;
+  for (std::int64_t k = std::max<std::int64_t>(along - reach, 0); k <= std::min(along + reach, length - 1); ++k) {
+    const auto place = static_cast<std::uint32_t>(k);
+    const std::size_t other = columns ? in.at(x, place) : in.at(place, y);
+    if (!in.reflects(other)) continue;
+    const double d = static_cast<double>(k - along);
+    const double weight = d == 0.0 ? 1.0 : std::exp(-0.5 * d * d / std::max(sigma * sigma, 1e-12));
+    sum += weight * dvec4(color[other]);
+    total += weight;
+  }
+  return sum / total;
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> GlossyImages::own_spread() const {
@@ -105,9 +123,12 @@ GlossyImages glossy_images(std::uint32_t width, std::uint32_t height, std::uint3
   made.c.blur_scale = 1.0f;
   made.c.blur_across = 0.1f;
   made.c.pixel_roughness = 1;
+  made.c.blur_tail = 2.5f;
+  made.c.blur_tail_share = 0.5f;
   made.c.blur_radius = 8;
   made.surface.assign(made.texels(), GlossyImages::Surface{128, 128, 0, 0});
   made.color.assign(made.texels(), vec4(0.5f));
+  made.tail = made.color;
   return made;
 }
 
@@ -118,8 +139,11 @@ GlossyImages random_glossy_images(std::mt19937& random, std::uint32_t width, std
     const std::uint8_t spread = random() % 8 == 0 ? byte(256) : byte(40);
     const bool reflects = random() % 4 != 0;
     made.surface[i] = {spread, static_cast<std::uint8_t>(reflects ? 1 + byte(255) : 0), 0, 0};
-    for (int k = 0; k < 4; ++k)
-      made.color[i][k] = half_to_float(float_to_half(std::uniform_real_distribution<float>(0.0f, 4.0f)(random)));
+    for (int k = 0; k < 4; ++k) {
+      std::uniform_real_distribution<float> light(0.0f, 4.0f);
+      made.color[i][k] = half_to_float(float_to_half(light(random)));
+      made.tail[i][k] = half_to_float(float_to_half(light(random)));
+    }
   }
   made.c.blur_radius = random() % 2 == 0 ? GLOAM_MOST_BLUR_RADIUS : 5;
   made.c.blur_scale = 40.0f;
@@ -141,22 +165,29 @@ Result<std::vector<std::uint8_t>> run_dilation(const KernelLab& lab, const Gloss
   return dilated;
 }
 
-Result<std::vector<vec4>> run_glossy_blur(const KernelLab& lab, const GlossyImages& in,
-                                          const std::vector<std::uint8_t>& spread, bool columns, bool direct) {
+Result<BlurredLines> run_glossy_blur(const KernelLab& lab, const GlossyImages& in,
+                                     const std::vector<std::uint8_t>& spread, bool columns, bool direct) {
   const ComputeProgram program = blur_program(columns, direct);
   KernelRun kernel(lab, program.shader, program.constants);
   bind_constants(kernel, in);
   kernel.sampled_image(2, gpu::Format::r8_unorm, in.c.size.x, in.c.size.y, spread);
   kernel.sampled_image(3, gpu::Format::rgba8_unorm, in.c.size.x, in.c.size.y, in.surface);
-  kernel.sampled_image(4, gpu::Format::rgba32_float, in.c.size.x, in.c.size.y, in.color);
-  kernel.output_image(5, gpu::Format::rgba16_float, in.c.size.x, in.c.size.y);
+  // One picture, or that of the core and below it that of the tail.
+  std::vector<vec4> color = in.color;
+  if (!columns) color.insert(color.end(), in.tail.begin(), in.tail.end());
+  const std::uint32_t read_rows = in.c.size.y * (columns ? 1 : 2), written_rows = in.c.size.y * (columns ? 2 : 1);
+  kernel.sampled_image(4, gpu::Format::rgba32_float, in.c.size.x, read_rows, color);
+  kernel.output_image(5, gpu::Format::rgba16_float, in.c.size.x, written_rows);
   if (direct) kernel.input(8, tile_roughness(in));
   GLOAM_TRY(direct ? run_tiles(kernel, in) : run_lines(kernel, in, columns));
   std::vector<vec4> blurred;
   for (const HalfColor& half : kernel.read<HalfColor>(5))
     blurred.emplace_back(half_to_float(half[0]), half_to_float(half[1]), half_to_float(half[2]),
                          half_to_float(half[3]));
-  return blurred;
+  const auto rows = static_cast<std::ptrdiff_t>(in.texels());
+  BlurredLines made{.core = {blurred.begin(), blurred.begin() + rows}, .tail = {}};
+  made.tail = columns ? std::vector<vec4>(blurred.begin() + rows, blurred.begin() + 2 * rows) : made.core;
+  return made;
 }
 
 std::optional<std::uint8_t> dilated_twin(const GlossyImages& in, std::uint32_t x, std::uint32_t y, bool columns,
@@ -171,33 +202,27 @@ std::optional<std::uint8_t> dilated_twin(const GlossyImages& in, std::uint32_t x
     if (texel[1] == 0) continue;
     const double unit = direct ? in.unit(x, y, columns) : in.unit(other.x, other.y, columns);
     const double sigma = unit * (texel[0] / 255.0) * factor_of(in, in.at(other.x, other.y));
-    if (std::abs(std::int64_t{k} - along) <= in.reach(sigma, sure)) greatest = std::max(greatest, texel[0]);
+    const double widest = sigma * std::max(1.0, static_cast<double>(in.c.blur_tail));
+    if (std::abs(std::int64_t{k} - along) <= in.reach(widest, sure)) greatest = std::max(greatest, texel[0]);
   }
   return sure ? std::optional(greatest) : std::nullopt;
 }
 
-std::optional<dvec4> blurred_twin(const GlossyImages& in, const std::vector<std::uint8_t>& spread, std::uint32_t x,
-                                  std::uint32_t y, bool columns) {
+std::optional<BlurredTexel> blurred_twin(const GlossyImages& in, const std::vector<std::uint8_t>& spread,
+                                         std::uint32_t x, std::uint32_t y, bool columns) {
   const std::size_t own = in.at(x, y);
-  if (!in.reflects(own)) return dvec4(0.0);
+  if (!in.reflects(own)) return BlurredTexel{};
   bool sure = true;
   const double sigma = in.sigma(x, y, spread[own] / 255.0, columns);
-  const std::int64_t reach = in.reach(sigma, sure);
+  const double of_tail = sigma * static_cast<double>(in.c.blur_tail);
+  const std::int64_t core_reach = in.reach(sigma, sure), tail_reach = in.reach(of_tail, sure);
   // Below 0.15 texels nothing is blurred.
-  if (!sure || std::abs(sigma - 0.15) < 0.01) return std::nullopt;
-  dvec4 sum(0.0);
-  double total = 0.0;
-  const std::int64_t along = columns ? y : x, length = columns ? in.c.size.y : in.c.size.x;
-  for (std::int64_t k = std::max<std::int64_t>(along - reach, 0); k <= std::min(along + reach, length - 1); ++k) {
-    const auto place = static_cast<std::uint32_t>(k);
-    const std::size_t other = columns ? in.at(x, place) : in.at(place, y);
-    if (!in.reflects(other)) continue;
-    const double d = static_cast<double>(k - along);
-    const double weight = d == 0.0 ? 1.0 : std::exp(-0.5 * d * d / std::max(sigma * sigma, 1e-12));
-    sum += weight * dvec4(in.color[other]);
-    total += weight;
-  }
-  return sum / total;
+  if (!sure || std::abs(sigma - 0.15) < 0.01 || std::abs(of_tail - 0.15) < 0.01) return std::nullopt;
+  const dvec4 core = gaussian_twin(in, in.color, x, y, sigma, core_reach, columns);
+  const dvec4 tail = gaussian_twin(in, columns ? in.color : in.tail, x, y, of_tail, tail_reach, columns);
+  if (columns) return BlurredTexel{core, tail};
+  const dvec4 both = glm::mix(core, tail, static_cast<double>(in.c.blur_tail_share));
+  return BlurredTexel{both, both};
 }
 
 }  // namespace gloam

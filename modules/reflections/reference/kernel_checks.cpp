@@ -86,7 +86,7 @@ Result<KernelError> run_blur_check(KernelLab& lab) {
                                      static_cast<std::uint32_t>(i / in.c.size.x), columns);
       if (!twin) continue;
       constexpr double kBrightestColor = 4.0;
-      const dvec4 apart = abs(dvec4((*found)[i]) - *twin);
+      const dvec4 apart = max(abs(dvec4(found->core[i]) - twin->core), abs(dvec4(found->tail[i]) - twin->tail));
       error.add(std::max({apart.x, apart.y, apart.z, apart.w}) / kBrightestColor, words);
     }
     return {};
@@ -107,7 +107,7 @@ std::vector<KernelCheck> reflection_kernel_checks() {
            .quick = true,
            .run = &run_dilation_check},
           {.name = "kernel.glossy_blur",
-           .sentence = "blurred lines of reflections against a Gaussian in double precision",
+           .sentence = "blurred lines of reflections against two Gaussians in double precision",
            .unit = "of the brightest",
            // Half floats of 2 to 4 lie 2^-9 apart; devices round to the nearest or towards zero. The device's exp adds
            // to it.

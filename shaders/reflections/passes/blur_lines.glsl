@@ -10,11 +10,12 @@
 
 layout(local_size_x = GLOAM_BLUR_GROUP) in;
 
-const int kSegment = GLOAM_BLUR_GROUP + 2 * GLOAM_MOST_BLUR_RADIUS;
+const int kSegment = GLOAM_BLUR_GROUP + 2 * GLOAM_MOST_BLUR_RADIUS;  // a multiple of GLOAM_BLUR_GROUP
 
-// Texel `i` of the workgroup's segment; 0 is GLOAM_MOST_BLUR_RADIUS texels before the first filtered one.
+// Texel `i` of the workgroup's segment; 0 is `blur_radius` texels before the first filtered one.
 ivec2 segment_texel(int i) {
-  int along = int(gl_WorkGroupID.x) * GLOAM_BLUR_GROUP + i - GLOAM_MOST_BLUR_RADIUS, line = int(gl_WorkGroupID.y);
+  int along = int(gl_WorkGroupID.x) * GLOAM_BLUR_GROUP + i - int(reflection.blur_radius);
+  int line = int(gl_WorkGroupID.y);
   return kColumns != 0u ? ivec2(line, along) : ivec2(along, line);
 }
 

@@ -20,38 +20,48 @@ layout(set = 0, binding = 8, scalar) readonly buffer Roughness { uint tile_rough
 #include "shaders/reflections/passes/blur_width.glsl"
 #include "shaders/reflections/mirror_surface_api.glsl"
 
-vec4 sum = vec4(0.0);
-float total = 0.0;
+vec4 core_sum = vec4(0.0), tail_sum = vec4(0.0);
+float core_total = 0.0, tail_total = 0.0;
 
-void add(ivec2 texel, float weight) {
+void add(ivec2 texel, float core_weight, float tail_weight) {
   bool reflects = is_inside(texel) && texelFetch(surface_image, texel, 0).y > 0.0;
   vec4 color = texelFetch(color_image, texel, 0);
-  sum += reflects ? weight * color : vec4(0.0);
-  total += reflects ? weight : 0.0;
+  core_sum += reflects ? core_weight * color : vec4(0.0);
+  core_total += reflects ? core_weight : 0.0;
+  vec4 of_tail = kColumns != 0u ? color : texelFetch(color_image, tail_texel(texel), 0);
+  tail_sum += reflects ? tail_weight * of_tail : vec4(0.0);
+  tail_total += reflects ? tail_weight : 0.0;
 }
 
 // No blur in the workgroup's tile reaches farther than that of spread 1 and the tile's greatest roughness.
 int tile_reach(ivec2 texel) {
   ivec2 tile = texel / GLOAM_REFLECTION_GROUP;
   int row = (int(reflection.size.x) + GLOAM_REFLECTION_GROUP - 1) / GLOAM_REFLECTION_GROUP;
-  return blur_reach(reflection.blur_scale * blur_factor(float(tile_roughness[tile.y * row + tile.x]) / 255.0));
+  float factor = blur_factor(float(tile_roughness[tile.y * row + tile.x]) / 255.0);
+  return widest_reach(reflection.blur_scale * factor);
 }
 
 void main() {
   ivec2 texel;
   if (!mirror_texel(texel)) return;
   float roughness = texelFetch(surface_image, texel, 0).y;
-  float sigma = blur_sigma(texel, texelFetch(dilated_image, texel, 0).x, roughness);
-  int reach = roughness > 0.0 && sigma > kLeastSigma ? blur_reach(sigma) : 0;
-  float falloff = -0.72134752 / max(sigma * sigma, 1e-6);  // −½ log₂ e / σ²
-  add(texel, 1.0);
+  float sigma = roughness > 0.0 ? blur_sigma(texel, texelFetch(dilated_image, texel, 0).x, roughness) : 0.0;
+  BlurPart core = blur_part(sigma), tail = blur_part(reflection.blur_tail * sigma);
+  add(texel, 1.0, 1.0);
   // All threads take the same turns: lavapipe runs the body again for threads that have left a loop, and a sum would
   // count its last terms twice.
   int last = tile_reach(texel);
   for (int k = 1; k <= last; ++k) {
-    float weight = k <= reach ? exp2(falloff * float(k * k)) : 0.0;
-    add(texel - k * kAlong, weight);
-    add(texel + k * kAlong, weight);
+    float core_weight = blur_weight(core, k), tail_weight = blur_weight(tail, k);
+    add(texel - k * kAlong, core_weight, tail_weight);
+    add(texel + k * kAlong, core_weight, tail_weight);
   }
-  imageStore(blurred_image, texel, total > 0.0 ? sum / total : vec4(0.0));
+  vec4 in_core = core_total > 0.0 ? core_sum / core_total : vec4(0.0);
+  vec4 in_tail = tail_total > 0.0 ? tail_sum / tail_total : vec4(0.0);
+  if (kColumns != 0u) {
+    imageStore(blurred_image, texel, in_core);
+    imageStore(blurred_image, tail_texel(texel), in_tail);
+  } else {
+    imageStore(blurred_image, texel, mix(in_core, in_tail, reflection.blur_tail_share));
+  }
 }

@@ -5,8 +5,9 @@
 #include "shaders/reflections/reflections_shared.h"
 #include "shaders/render/view_shared.h"
 
-// One direction of the dilation of spreads: a texel takes the greatest spread of all texels whose blur reaches it, so
-// that blurred things have no sharp silhouette. A sharp contact stays sharp, because its neighbours' blur is narrow.
+// One direction of the dilation of spreads: a texel takes the greatest spread of all texels whose blur's core reaches
+// it, so that blurred things have no sharp silhouette. A sharp contact stays sharp, because its neighbours' blur is
+// narrow.
 
 layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
 layout(set = 0, binding = 1, scalar) uniform Reflection { ReflectionConstants reflection; };
@@ -25,7 +26,7 @@ void load(int i) {
   if (is_inside(texel)) {
     float roughness = texelFetch(surface_image, texel, 0).y;
     loaded.x = texelFetch(spread_image, texel, 0).x;
-    if (roughness > 0.0) loaded.y = float(blur_reach(blur_sigma(texel, loaded.x, roughness)));
+    if (roughness > 0.0) loaded.y = float(widest_reach(blur_sigma(texel, loaded.x, roughness)));
   }
   segment[i] = loaded;
   if (loaded.y > 0.0) atomicMax(most, uint(loaded.y));
@@ -35,10 +36,9 @@ void main() {
   int own = int(gl_LocalInvocationIndex);
   if (own == 0) most = 0u;
   barrier();
-  load(own);
-  load(own + GLOAM_BLUR_GROUP);
+  for (int i = 0; i < GLOAM_BLUR_GROUP + 2 * int(reflection.blur_radius); i += GLOAM_BLUR_GROUP) load(own + i);
   barrier();
-  own += GLOAM_MOST_BLUR_RADIUS;
+  own += int(reflection.blur_radius);
   float spread = segment[own].x;
   int reach = int(most);
   for (int k = -reach; k <= reach; ++k) {

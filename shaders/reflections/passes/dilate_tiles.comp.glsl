@@ -26,7 +26,7 @@ float unit;
 // Spread of a texel whose blur reaches `offset` texels far; 0 if it does not.
 float spread_from(ivec2 texel, int offset) {
   float roughness = texelFetch(surface_image, texel, 0).y, spread = texelFetch(spread_image, texel, 0).x;
-  bool reaches = is_inside(texel) && roughness > 0.0 && offset <= blur_reach(unit * spread * blur_factor(roughness));
+  bool reaches = is_inside(texel) && roughness > 0.0 && offset <= widest_reach(unit * spread * blur_factor(roughness));
   return reaches ? spread : 0.0;
 }
 
@@ -38,7 +38,7 @@ int farthest_reach(ivec2 texel) {
   for (int i = -aside; i <= aside; ++i) {
     ivec2 tile = own + i * kAlong, there = clamp(tile, ivec2(0), tiles - 1);
     float roughness = float(tile_roughness[there.y * tiles.x + there.x]) / 255.0;
-    int reach = tile == there ? blur_reach(unit * blur_factor(roughness)) : 0;
+    int reach = tile == there ? widest_reach(unit * blur_factor(roughness)) : 0;
     most = reach > (abs(i) - 1) * GLOAM_REFLECTION_GROUP ? max(most, reach) : most;
   }
   return most;

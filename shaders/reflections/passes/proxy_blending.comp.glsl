@@ -108,10 +108,13 @@ void main() {
       color += part * layers[i].light;
       distance_m += part * layers[i].light.a * layers[i].distance_m;
     }
-    // The remaining share is seen in a probe, far away.
-    distance_m = color.a > 1e-3 ? distance_m / color.a : kMostHitCentimetres * 0.01 * reflection.unit_m;
+    // The remaining share is seen in a probe, far away. A texel that mirrors nothing else has no width of its own: the
+    // blurs that reach it give theirs.
+    bool empty = color.a <= 1e-3;
+    distance_m = empty ? kMostHitCentimetres * 0.01 * reflection.unit_m : distance_m / color.a;
     float spread = kPixelRoughness != 0u ? mirrored_share(s, distance_m) : screen_distance(s, distance_m);
-    surface = vec4(spread, max(s.roughness, 1.0 / 255.0), pack_hit_distance(distance_m / reflection.unit_m));
+    surface =
+        vec4(empty ? 0.0 : spread, max(s.roughness, 1.0 / 255.0), pack_hit_distance(distance_m / reflection.unit_m));
     color *= s.share;
   }
   imageStore(color_image, texel, color);

@@ -25,15 +25,23 @@ class GlossyLines : public KernelTest {
   [[nodiscard]] static std::vector<std::uint8_t> dilate(const GlossyImages& in, bool columns, bool direct = false) {
     return value_of(run_dilation(KernelLab(device(), gpu_log()), in, columns, direct));
   }
-  [[nodiscard]] static std::vector<vec4> blur(const GlossyImages& in, const std::vector<std::uint8_t>& spread,
-                                              bool columns) {
+  [[nodiscard]] static BlurredLines both(const GlossyImages& in, const std::vector<std::uint8_t>& spread,
+                                         bool columns) {
     const KernelLab lab(device(), gpu_log());
-    const std::vector<vec4> lines = value_of(run_glossy_blur(lab, in, spread, columns, false));
-    const std::vector<vec4> tiles = value_of(run_glossy_blur(lab, in, spread, columns, true));
-    for (std::size_t i = 0; i < lines.size(); ++i)  // sums of another order, rounded to half floats
-      EXPECT_LE(glm::length(tiles[i] - lines[i]), 2e-3f * (1.0f + glm::length(lines[i])))
+    BlurredLines lines = value_of(run_glossy_blur(lab, in, spread, columns, false));
+    const BlurredLines tiles = value_of(run_glossy_blur(lab, in, spread, columns, true));
+    for (std::size_t i = 0; i < lines.core.size(); ++i) {  // sums of another order, rounded to half floats
+      EXPECT_LE(glm::length(tiles.core[i] - lines.core[i]), 2e-3f * (1.0f + glm::length(lines.core[i])))
           << "the kernel over tiles " << i;
+      EXPECT_LE(glm::length(tiles.tail[i] - lines.tail[i]), 2e-3f * (1.0f + glm::length(lines.tail[i])))
+          << "the kernel over tiles, tail " << i;
+    }
     return lines;
+  }
+  /// One Gaussian.
+  [[nodiscard]] static std::vector<vec4> blur(GlossyImages in, const std::vector<std::uint8_t>& spread, bool columns) {
+    in.c.blur_tail = in.c.blur_tail_share = 0.0f;
+    return both(in, spread, columns).core;
   }
 };
 
@@ -66,7 +74,7 @@ TEST_F(GlossyLines, dilation_is_the_greatest_spread_of_all_texels_whose_blur_rea
 }
 
 // Hard case: selftest.blur
-TEST_F(GlossyLines, blur_is_a_gaussian_over_the_texels_that_reflect) {
+TEST_F(GlossyLines, blur_is_two_gaussians_over_the_texels_that_reflect) {
   std::mt19937 random(42);
   std::size_t blurred = 0;
   for (const uvec2 size : kLineSizes)
@@ -76,14 +84,16 @@ TEST_F(GlossyLines, blur_is_a_gaussian_over_the_texels_that_reflect) {
         in.c.pixel_roughness = by_roughness;
         if (by_roughness == 0) in.c.blur_across = 0.5f, in.c.blur_scale = 12.0f;
         const std::vector<std::uint8_t> spread = in.own_spread();
-        const std::vector<vec4> result = blur(in, spread, columns);
+        const BlurredLines result = both(in, spread, columns);
         for (std::uint32_t y = 0; y < size.y; ++y)
           for (std::uint32_t x = 0; x < size.x; ++x) {
             const std::size_t own = in.at(x, y);
             const double sigma = in.sigma(x, y, spread[own] / 255.0, columns);
             const auto expected = blurred_twin(in, spread, x, y, columns);
             if (!expected) continue;
-            ASSERT_LT(glm::length(dvec4(result[own]) - *expected), 8e-3)
+            ASSERT_LT(glm::length(dvec4(result.core[own]) - expected->core), 8e-3)
+                << size.x << "x" << size.y << ", " << x << ", " << y << ", sigma " << sigma;
+            ASSERT_LT(glm::length(dvec4(result.tail[own]) - expected->tail), 8e-3)
                 << size.x << "x" << size.y << ", " << x << ", " << y << ", sigma " << sigma;
             blurred += in.reflects(own) && sigma > 1.0 ? 1 : 0;
           }
@@ -100,9 +110,11 @@ TEST_F(GlossyLines, a_constant_picture_stays_constant_and_silhouettes_do_not_ble
     const float huge = 60000.0f, nan = std::numeric_limits<float>::quiet_NaN();
     for (std::size_t i = 0; i < in.texels(); ++i)
       in.color[i] = in.reflects(i) ? vec4(0.25f, 0.5f, 1.0f, 0.75f) : vec4(i % 2 == 0 ? huge : nan);
-    const std::vector<vec4> result = blur(in, std::vector<std::uint8_t>(in.texels(), 255), columns);
-    for (std::size_t i = 0; i < in.texels(); ++i)
-      for (int k = 0; k < 4; ++k) ASSERT_NEAR(result[i][k], in.reflects(i) ? in.color[i][k] : 0.0f, 1e-3f) << i;
+    in.tail = in.color;
+    const BlurredLines result = both(in, std::vector<std::uint8_t>(in.texels(), 255), columns);
+    for (const std::vector<vec4>& lines : {result.core, result.tail})
+      for (std::size_t i = 0; i < in.texels(); ++i)
+        for (int k = 0; k < 4; ++k) ASSERT_NEAR(lines[i][k], in.reflects(i) ? in.color[i][k] : 0.0f, 1e-3f) << i;
   }
 }
 
@@ -131,6 +143,36 @@ TEST_F(GlossyLines, energy_is_kept_at_constant_distance_and_roughness) {
         EXPECT_LT(std::sqrt(variance), 1.0 * sigma) << columns;
       }
     }
+}
+
+TEST_F(GlossyLines, both_directions_make_the_sum_of_two_round_gaussians) {
+  GlossyImages in = images(121, 121, 1);
+  in.c.pixel_roughness = 0;
+  in.c.blur_across = 1.0f;
+  in.c.blur_radius = 60;
+  in.c.blur_scale = 8.0f;
+  in.c.blur_tail_share = 0.4f;
+  in.color.assign(in.texels(), vec4(0.0f));
+  in.color[in.at(60, 60)] = vec4(40000.0f);
+  const std::vector<std::uint8_t> spread(in.texels(), 255);
+  const BlurredLines columns = both(in, spread, true);
+  in.color = columns.core, in.tail = columns.tail;
+  const std::vector<vec4> result = both(in, spread, false).core;
+  double worst = 0.0;
+  for (std::uint32_t y = 30; y <= 90; ++y)
+    for (std::uint32_t x = 30; x <= 90; ++x) {
+      const double dx = x - 60.0, dy = y - 60.0;
+      const auto gaussian = [&](double sigma) {
+        const double reach = std::ceil(2.0 * sigma);
+        if (std::abs(dx) > reach || std::abs(dy) > reach) return 0.0;
+        double line = 0.0;
+        for (double k = -reach; k <= reach; k += 1.0) line += std::exp(-0.5 * k * k / (sigma * sigma));
+        return std::exp(-0.5 * (dx * dx + dy * dy) / (sigma * sigma)) / (line * line);
+      };
+      const double expected = 40000.0 * (0.6 * gaussian(8.0) + 0.4 * gaussian(20.0));
+      worst = std::max(worst, std::abs(static_cast<double>(result[in.at(x, y)].r) - expected));
+    }
+  EXPECT_LT(worst, 0.002 * 40000.0 * 0.6 / (2.0 * 3.14159 * 64.0));
 }
 
 // Hard case: reflections.zero_specular

@@ -147,6 +147,8 @@ struct BoxMeeting {
   c.thickness_m = 0.35f;
   c.blur_scale = 1.0f;
   c.blur_across = 0.1f;
+  c.blur_tail = 2.5f;
+  c.blur_tail_share = 0.5f;
   c.pixel_roughness = 1;
   c.blur_radius = 8;
   c.capture_scale = 1.0f;
