@@ -11,8 +11,8 @@
 
 namespace gloam {
 
-/// Roughness from which on surfaces show probes alone; as kTooRough in shaders/reflections/surfaces_api.glsl.
-inline constexpr float kTooRoughForMirrors = 0.4f;
+/// Roughness from which on surfaces show probes alone; as kTooRough in shaders/lighting/mirror_share_api.glsl.
+inline constexpr float kTooRoughForMirrors = 0.49f;
 
 /// How a material can take part in reflections.
 enum class Reflective : std::uint8_t {

@@ -53,7 +53,6 @@ MirroredLight add_blur(FrameBuilder& frame, const ReflectionUniforms& uniforms, 
   pass.read("dilated_image", dilated);
   pass.read("surface_image", light.surface);
   pass.read("color_image", light.color);
-  if (is_direct(frame)) pass.read("tile_roughness", tiles.roughness);
   const ImageRef blurred = pass.write(
       "blurred_image", columns ? create_columns_image(frame, name, uniforms.constants.size)
                                : create_view_image(frame, name, gpu::Format::rgba16_float, uniforms.constants.scale));

@@ -17,7 +17,7 @@ namespace gloam {
 namespace {
 
 constexpr double kLeastUp = 0.999;  // of a triangle's normal: 2.6°
-constexpr float kSmooth = 0.25f;    // as in shaders/reflections/surfaces_api.glsl
+constexpr float kSmooth = 0.38f;    // as in shaders/reflections/surfaces_api.glsl
 
 /// How much of a mirror a material is, 0…1. Its textures are not read.
 double mirror_weight(const Material& material) {

@@ -178,7 +178,6 @@ Result<BlurredLines> run_glossy_blur(const KernelLab& lab, const GlossyImages& i
   const std::uint32_t read_rows = in.c.size.y * (columns ? 1 : 2), written_rows = in.c.size.y * (columns ? 2 : 1);
   kernel.sampled_image(4, gpu::Format::rgba32_float, in.c.size.x, read_rows, color);
   kernel.output_image(5, gpu::Format::rgba16_float, in.c.size.x, written_rows);
-  if (direct) kernel.input(8, tile_roughness(in));
   GLOAM_TRY(direct ? run_tiles(kernel, in) : run_lines(kernel, in, columns));
   std::vector<vec4> blurred;
   for (const HalfColor& half : kernel.read<HalfColor>(5))

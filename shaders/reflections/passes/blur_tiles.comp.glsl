@@ -14,7 +14,6 @@ layout(set = 0, binding = 2) uniform sampler2D dilated_image;
 layout(set = 0, binding = 3) uniform sampler2D surface_image;
 layout(set = 0, binding = 4) uniform sampler2D color_image;
 layout(set = 0, binding = 5, rgba16f) uniform writeonly image2D blurred_image;
-layout(set = 0, binding = 8, scalar) readonly buffer Roughness { uint tile_roughness[]; };
 
 #define GLOAM_MIRROR_TILES 6
 #include "shaders/reflections/passes/blur_width.glsl"
@@ -33,14 +32,6 @@ void add(ivec2 texel, float core_weight, float tail_weight) {
   tail_total += reflects ? tail_weight : 0.0;
 }
 
-// No blur in the workgroup's tile reaches farther than that of spread 1 and the tile's greatest roughness.
-int tile_reach(ivec2 texel) {
-  ivec2 tile = texel / GLOAM_REFLECTION_GROUP;
-  int row = (int(reflection.size.x) + GLOAM_REFLECTION_GROUP - 1) / GLOAM_REFLECTION_GROUP;
-  float factor = blur_factor(float(tile_roughness[tile.y * row + tile.x]) / 255.0);
-  return widest_reach(reflection.blur_scale * factor);
-}
-
 void main() {
   ivec2 texel;
   if (!mirror_texel(texel)) return;
@@ -48,9 +39,8 @@ void main() {
   float sigma = roughness > 0.0 ? blur_sigma(texel, texelFetch(dilated_image, texel, 0).x, roughness) : 0.0;
   BlurPart core = blur_part(sigma), tail = blur_part(reflection.blur_tail * sigma);
   add(texel, 1.0, 1.0);
-  // All threads take the same turns: lavapipe runs the body again for threads that have left a loop, and a sum would
-  // count its last terms twice.
-  int last = tile_reach(texel);
+  // Lavapipe runs the body again for threads that have left the loop: beyond a thread's reach its weights are 0.
+  int last = max(core.reach, tail.reach);
   for (int k = 1; k <= last; ++k) {
     float core_weight = blur_weight(core, k), tail_weight = blur_weight(tail, k);
     add(texel - k * kAlong, core_weight, tail_weight);
