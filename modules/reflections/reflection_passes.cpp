@@ -38,10 +38,11 @@ constexpr float kThickness = 0.35f;  // of things that screen space sees from th
 // is least for these three numbers: differences of 4.6 and 3.3 % (root mean square), at most 5.0 and 2.0 % of the peak.
 constexpr float kCoreWidth = 1.0852f;  // standard deviation, radians per α
 constexpr float kTailWidth = 2.8844f;
-constexpr float kTailShare = 0.5133f;     // of the energy; the core has the rest
-constexpr std::uint32_t kReachShare = 4;  // the blur ends after the picture's height over this
-constexpr float kLeastAcross = 0.1f;      // narrowest blur along rows, per pixel roughness
-constexpr float kAcross = 0.5f;           // the same with one roughness for all
+constexpr float kTailShare = 0.5133f;          // of the energy; the core has the rest
+constexpr std::uint32_t kReachShare = 4;       // the blur ends after the picture's height over this
+constexpr std::uint32_t kReachShareOfAll = 8;  // the same with one roughness for all
+constexpr float kLeastAcross = 0.1f;           // narrowest blur along rows, per pixel roughness
+constexpr float kAcross = 0.5f;                // the same with one roughness for all
 
 /// Side of a texel of the reflection images at view depth 1 m (orthographic: everywhere), metres.
 float texel_size(const RenderView& view, std::uint32_t scale) {
@@ -59,7 +60,8 @@ shaders::ReflectionConstants constants_of(const RenderView& view, const Reflecti
   c.reach_m = knobs.reach_m * unit_m;
   c.thickness_m = kThickness * unit_m;
   c.pixel_roughness = knobs.pixel_roughness ? 1 : 0;
-  c.blur_radius = std::clamp(c.size.y / kReachShare, 2u, std::uint32_t{GLOAM_MOST_BLUR_RADIUS});
+  c.blur_radius = std::clamp(c.size.y / (knobs.pixel_roughness ? kReachShare : kReachShareOfAll), 2u,
+                             std::uint32_t{GLOAM_MOST_BLUR_RADIUS});
   c.blur_scale =
       knobs.pixel_roughness ? kCoreWidth / texel_size(view, c.scale) : 0.5f * static_cast<float>(c.blur_radius);
   c.blur_tail = knobs.pixel_roughness ? kTailWidth / kCoreWidth : 0.0f;
