@@ -47,7 +47,8 @@ void add_surroundings(FrameBuilder& frame, ShadingInputs& inputs) {
   const shaders::ProbeRow no_row{};
   const vec4 no_factor(1.0f);
   const bool any = inputs.probes > 0, changed = probes != nullptr && !probes->factors.empty();
-  inputs.probe_rows = frame.upload_items(any ? std::span<const shaders::ProbeRow>(probes->rows) : std::span(&no_row, 1));
+  inputs.probe_rows =
+      frame.upload_items(any ? std::span<const shaders::ProbeRow>(probes->rows) : std::span(&no_row, 1));
   inputs.capture_factors =
       frame.upload_items(changed ? std::span<const vec4>(probes->factors) : std::span(&no_factor, 1));
 }

@@ -12,17 +12,17 @@ namespace gloam {
 struct ShadingInputs {
   gpu::Binding::BufferRange environment;  ///< EnvironmentConstants
   std::uint32_t directional_count = 0;
-  bool specular_ambient_taken = false;  ///< see SpecularAmbientTaken
-  bool diffuse_light_wanted = false;    ///< see DiffuseLightWanted
-  bool surroundings_follow = false;     ///< there is a SurroundingsOutput
-  bool reflects = false;                ///< there are SurroundingProbes, perhaps without rows
-  std::uint32_t probes = 0;             ///< rows
+  bool specular_ambient_taken = false;     ///< see SpecularAmbientTaken
+  bool diffuse_light_wanted = false;       ///< see DiffuseLightWanted
+  bool surroundings_follow = false;        ///< there is a SurroundingsOutput
+  bool reflects = false;                   ///< there are SurroundingProbes, perhaps without rows
+  std::uint32_t probes = 0;                ///< rows
   gpu::Binding::BufferRange surroundings;  ///< SurroundingsConstants
   gpu::Binding::BufferRange probe_rows;
   gpu::Binding::BufferRange capture_factors;
   ImageRef probe_images;
-  bool transmission = false;            ///< lets_light_through()
-  bool plain_highlights = false;        ///< of points at points: neither lights nor pixels have a width
+  bool transmission = false;      ///< lets_light_through()
+  bool plain_highlights = false;  ///< of points at points: neither lights nor pixels have a width
   /// Of the lights module. If the scene has no light: a block without lights, and default values.
   LightsOutputs outputs;
 };

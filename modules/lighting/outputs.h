@@ -141,8 +141,9 @@ struct ForwardLighting {
 /// The functions below may be called after the lights module's PassPhase::lists.
 [[nodiscard]] ForwardLighting forward_lighting(const FrameBuilder& frame);
 /// Binds the inputs of environment_api.glsl, surroundings_api.glsl and forward_lights_api.glsl that the program in use
-/// declares: environment, surroundings, probe_rows, probe_images, lights, light_texels, grid, mask_tiles and z_bin_words; with shadows or cookies also those of read_shadows(). The
-/// program must be a version for this frame, see ForwardLighting.
+/// declares: environment, surroundings, probe_rows, probe_images, lights, light_texels, grid, mask_tiles and
+/// z_bin_words; with shadows or cookies also those of read_shadows(). The program must be a version for this frame, see
+/// ForwardLighting.
 void read_lighting(ShaderPass& pass, FrameBuilder& frame);
 /// Binds the inputs of environment_api.glsl and surroundings_api.glsl that the program in use declares.
 void read_surroundings(ShaderPass& pass, FrameBuilder& frame);

@@ -31,8 +31,8 @@ struct ReflectionPlan {
   bool mirror = false;                       ///< mirror surfaces get a reflection: tiers 1 and 2, or `planar`
   shaders::ReflectionConstants constants{};  ///< without fog
   std::vector<shaders::ProxyRow> proxies;
-  std::vector<vec4> factors;  ///< of captured light (changed_light_api.glsl); ProxyRow::factor
-  bool no_specular = false;   ///< for references: nothing is added (ReflectionOverride)
+  std::vector<vec4> factors;                  ///< of captured light (changed_light_api.glsl); ProxyRow::factor
+  bool no_specular = false;                   ///< for references: nothing is added (ReflectionOverride)
   const TracedReflections* traced = nullptr;  ///< for references: takes the place of all tiers
   std::optional<PlanarMirror> planar;         ///< takes the place of tiers 1 and 2
 };
@@ -54,10 +54,10 @@ struct ProxyInputs {
 
 /// Tiles of GLOAM_REFLECTION_GROUP texels' side, and those among them that hold a mirror surface.
 struct MirrorTiles {
-  ImageRef image;           ///< rg32ui, of all texels: mirror_surface_api.glsl
-  BufferRef commands;       ///< MirrorCommands of each GLOAM_LIST_…
-  BufferRef places;         ///< the tiles of each list, x | y << 16
-  BufferRef flags;          ///< of every tile: GLOAM_TILE_… bits
+  ImageRef image;      ///< rg32ui, of all texels: mirror_surface_api.glsl
+  BufferRef commands;  ///< MirrorCommands of each GLOAM_LIST_…
+  BufferRef places;    ///< the tiles of each list, x | y << 16
+  BufferRef flags;     ///< of every tile: GLOAM_TILE_… bits
   shaders::MirrorLists lists{};
   BufferRef roughness;      ///< of every tile: 1…255; 0: without a mirror surface
   std::uint32_t count = 0;  ///< of all tiles

@@ -12,8 +12,8 @@
 
 namespace gloam {
 
-/// PassPhase::announce: puts ReflectionPlan and SurroundingProbes on the board, if a visible material reflects. factors:
-/// of the frame's world; brought up to date if captures are shown. progress: of the frame's world.
+/// PassPhase::announce: puts ReflectionPlan and SurroundingProbes on the board, if a visible material reflects.
+/// factors: of the frame's world; brought up to date if captures are shown. progress: of the frame's world.
 void announce_reflections(FrameBuilder& frame, Staging& staging, CaptureFactors& factors, ProbeProgress& progress);
 
 /// PassPhase::lists: finds the surfaces that reflect, and what they mirror of their surroundings.

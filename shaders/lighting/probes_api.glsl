@@ -8,8 +8,8 @@
 #include "shaders/lighting/probes_shared.h"
 
 // Cube probes: captured surroundings, as octahedral maps in the layers of `probe_images`, prefiltered by roughness in
-// their mips. Include this after the image `probe_images` and the buffers `probe_rows` and `capture_factors`; rows are ordered: probes with a
-// box from the smallest to the largest, then the global one.
+// their mips. Include this after the image `probe_images` and the buffers `probe_rows` and `capture_factors`; rows are
+// ordered: probes with a box from the smallest to the largest, then the global one.
 
 // Point of a probe's map that shows a direction.
 vec2 probe_uv(vec3 direction) { return octahedral_encode(direction.xzy) * 0.5 + 0.5; }
@@ -101,7 +101,8 @@ vec3 seen_in_probe(uint row, vec3 position, vec3 direction, float roughness) {
   return probe_radiance(probe.layer, probe.emission, probe.factor, probe.global > 0.5 ? direction : toward, roughness);
 }
 
-// Radiance of all probes for a reflected ray. normal: facing_share(). covered: how much of it the probes give, 0…1; the rest is the sky's.
+// Radiance of all probes for a reflected ray. normal: facing_share(). covered: how much of it the probes give, 0…1; the
+// rest is the sky's.
 vec3 probes_radiance(uint count, vec3 position, vec3 normal, vec3 direction, float roughness, out float covered) {
   ChosenProbes chosen = choose_probes(count, position, normal);
   covered = chosen.covered;

@@ -26,22 +26,22 @@ layout(set = 0, binding = GLOAM_SURROUNDINGS_BINDING + 3, scalar) readonly buffe
 
 // Calls visit(row, its index) for each row; not a loop: rows at constant places of a uniform are read once, not by each
 // thread.
-#define GLOAM_FOR_EACH_PROBE(visit)                                                      \
-  if (kProbes > 0u) visit(surroundings.few_probes[0], 0u);                               \
-  if (kProbes > 1u) visit(surroundings.few_probes[1], 1u);                               \
-  if (kProbes > 2u) visit(surroundings.few_probes[2], 2u);                               \
-  if (kProbes > 3u) visit(surroundings.few_probes[3], 3u);                               \
-  if (kProbes > 4u) visit(surroundings.few_probes[4], 4u);                               \
-  if (kProbes > 5u) visit(surroundings.few_probes[5], 5u);                               \
-  if (kProbes > 6u)                                                                      \
+#define GLOAM_FOR_EACH_PROBE(visit)                        \
+  if (kProbes > 0u) visit(surroundings.few_probes[0], 0u); \
+  if (kProbes > 1u) visit(surroundings.few_probes[1], 1u); \
+  if (kProbes > 2u) visit(surroundings.few_probes[2], 2u); \
+  if (kProbes > 3u) visit(surroundings.few_probes[3], 3u); \
+  if (kProbes > 4u) visit(surroundings.few_probes[4], 4u); \
+  if (kProbes > 5u) visit(surroundings.few_probes[5], 5u); \
+  if (kProbes > 6u)                                        \
     for (uint i = 6u; i < surroundings.probes; ++i) visit(probe_rows[i], i);
 
 #define GLOAM_CONSIDER(row, index) consider_probe(chosen, row, index, position, normal)
-#define GLOAM_CHOOSE_PROBES                                         \
+#define GLOAM_CHOOSE_PROBES                                            \
   ChosenProbes choose_probes(uint count, vec3 position, vec3 normal) { \
-    ChosenProbes chosen = ChosenProbes(uvec2(0u), vec2(0.0), 0.0);  \
-    GLOAM_FOR_EACH_PROBE(GLOAM_CONSIDER)                            \
-    return chosen;                                                  \
+    ChosenProbes chosen = ChosenProbes(uvec2(0u), vec2(0.0), 0.0);     \
+    GLOAM_FOR_EACH_PROBE(GLOAM_CONSIDER)                               \
+    return chosen;                                                     \
   }
 #include "shaders/lighting/probes_api.glsl"
 
@@ -50,7 +50,8 @@ vec3 far_radiance(ShadingPoint p, vec3 around, float roughness) {
   vec3 light = around;
   if (kProbes != 0u) {
     float covered;
-    light = probes_radiance(surroundings.probes, p.position, p.normal, reflect(-p.to_eye, p.normal), roughness, covered);
+    light =
+        probes_radiance(surroundings.probes, p.position, p.normal, reflect(-p.to_eye, p.normal), roughness, covered);
     light = light * surroundings.probe_scale + around * (1.0 - covered);
   }
   return light * surroundings.fog_through + surroundings.fog_light;

@@ -11,8 +11,8 @@ namespace gloam {
 /// screen_space: whether hits are looked up again where mirrors are smooth. bumpy: for tiles with slanted normals.
 [[nodiscard]] ComputeProgram composite_program(bool screen_space, bool bumpy);
 
-/// Adds the mirrored images to LitOutput, in the tiles that hold a mirror surface: upscaled, with bent lookup, sharp hits
-/// and fog.
+/// Adds the mirrored images to LitOutput, in the tiles that hold a mirror surface: upscaled, with bent lookup, sharp
+/// hits and fog.
 void add_composite_pass(FrameBuilder& frame, const ReflectionUniforms& uniforms, const MirrorSurfaces& surfaces,
                         const ScreenSpaceHits& hits, const MirroredLight& light);
 

@@ -66,8 +66,7 @@ ImageRef mirror_image(FrameBuilder& frame, const char* name, gpu::Format format,
 }  // namespace
 
 ComputeProgram surface_program(bool mirrors, std::size_t probes) {
-  return {shaders::reflections::surfaces_comp,
-          {{"kMirrors", mirrors ? 1u : 0u}, {"kProbes", probe_constant(probes)}}};
+  return {shaders::reflections::surfaces_comp, {{"kMirrors", mirrors ? 1u : 0u}, {"kProbes", probe_constant(probes)}}};
 }
 
 ComputeProgram list_tiles_program(bool mirrors) {
@@ -95,8 +94,8 @@ MirrorSurfaces add_surface_passes(FrameBuilder& frame, const ReflectionUniforms&
     const std::uint32_t scale = uniforms.constants.scale;
     const ImageRef far = create_view_image(frame, "surroundings", gpu::Format::rgba16_float, scale);
     frame.put(SurroundingsOutput{pass.write("far_image", far)});
-    found.surface = pass.write("surface_image", mirror_image(frame, "reflection_surface", gpu::Format::rgba8_unorm,
-                                                             mirrors, scale));
+    found.surface = pass.write("surface_image",
+                               mirror_image(frame, "reflection_surface", gpu::Format::rgba8_unorm, mirrors, scale));
     tiles.flags = pass.write("tile_flags", tiles.flags);
     pass.dispatch_over(size);
   }

@@ -19,9 +19,9 @@ namespace gloam {
 /// the cleared MirrorSurfaces::surface.
 [[nodiscard]] MirrorSurfaces add_surface_passes(FrameBuilder& frame, const ReflectionUniforms& uniforms, bool mirrors);
 
-/// After lighting: adds the specular ambient light of surfaces that reflect strongly to LitOutput, but for what mirrored
-/// images take the place of, and puts StrongAmbient on the board. mirrors: also finds the surfaces that mirrored images
-/// serve (MirrorTiles::image), and lists their tiles.
+/// After lighting: adds the specular ambient light of surfaces that reflect strongly to LitOutput, but for what
+/// mirrored images take the place of, and puts StrongAmbient on the board. mirrors: also finds the surfaces that
+/// mirrored images serve (MirrorTiles::image), and lists their tiles.
 void add_surroundings_passes(FrameBuilder& frame, const ReflectionUniforms& uniforms, MirrorSurfaces& found,
                              bool mirrors);
 

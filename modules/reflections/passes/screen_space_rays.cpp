@@ -16,7 +16,8 @@ ComputeProgram screen_space_program(const ReflectionKnobs& knobs, bool blended, 
 ScreenSpaceHits add_screen_space_pass(FrameBuilder& frame, const ReflectionKnobs& knobs,
                                       const ReflectionUniforms& uniforms, const MirrorTiles& tiles) {
   const BlendedLayer* blended = frame.find<BlendedLayer>();
-  ComputePass pass(frame, "reflection_screen_space", screen_space_program(knobs, blended != nullptr, frame.get<SurroundingProbes>().rows.size()));
+  ComputePass pass(frame, "reflection_screen_space",
+                   screen_space_program(knobs, blended != nullptr, frame.get<SurroundingProbes>().rows.size()));
   pass.read("reflection", uniforms.block);
   read_geometry(pass, frame.get<GeometryOutputs>());
   read_surroundings(pass, frame);

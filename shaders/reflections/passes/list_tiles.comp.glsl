@@ -13,7 +13,7 @@ layout(constant_id = 0) const uint kMirrors = 0u;  // 1: the lists of tiles that
 
 layout(set = 0, binding = 0, scalar) uniform Reflection { ReflectionConstants reflection; };
 layout(set = 0, binding = 1, scalar) readonly buffer Flags { uint tile_flags[]; };
-layout(set = 0, binding = 2, scalar) buffer Commands { uint commands[]; };       // MirrorCommands of each list
+layout(set = 0, binding = 2, scalar) buffer Commands { uint commands[]; };        // MirrorCommands of each list
 layout(set = 0, binding = 3, scalar) writeonly buffer Places { uint places[]; };  // of each list: x | y << 16
 
 layout(push_constant, scalar) uniform Push { MirrorLists lists; };

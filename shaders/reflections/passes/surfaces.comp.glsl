@@ -20,7 +20,7 @@ layout(set = 0, binding = 4) uniform sampler2D material_image;
 layout(set = 0, binding = 5) uniform sampler2D depth_image;
 layout(set = 0, binding = 6, scalar) uniform Environment { EnvironmentConstants environment; };
 layout(set = 0, binding = 7, rgba16f) uniform writeonly image2D far_image;
-layout(set = 0, binding = 8, scalar) buffer Flags { uint tile_flags[]; };  // GLOAM_TILE_… bits of each tile
+layout(set = 0, binding = 8, scalar) buffer Flags { uint tile_flags[]; };     // GLOAM_TILE_… bits of each tile
 layout(set = 0, binding = 9, rgba8) uniform writeonly image2D surface_image;  // cleared: no texel has a reflection yet
 
 layout(constant_id = 0) const uint kMirrors = 1u;  // 0: there are no mirrored images
@@ -94,8 +94,10 @@ void main() {
   ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(uvec2(texel), reflection.size))) return;
   bvec4 strong = strong_pixels(texel);
-  ivec2 weak = texel * int(reflection.scale) +
-               (!strong.x ? ivec2(0) : !strong.y ? ivec2(1, 0) : !strong.z ? ivec2(0, 1) : ivec2(1));
+  ivec2 weak = texel * int(reflection.scale) + (!strong.x   ? ivec2(0)
+                                                : !strong.y ? ivec2(1, 0)
+                                                : !strong.z ? ivec2(0, 1)
+                                                            : ivec2(1));
   weak = min(weak, ivec2(view.size) - 1);
   float depth = all(strong) ? 0.0 : texelFetch(depth_image, weak, 0).r;
   vec3 light = vec3(0.0);

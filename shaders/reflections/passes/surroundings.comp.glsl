@@ -8,8 +8,9 @@
 #include "shaders/render/gbuffer_api.glsl"
 #include "shaders/render/view_shared.h"
 
-// Adds the specular ambient term to surfaces that reflect strongly, in the listed tiles, and keeps it. Finds those among
-// them that mirrored images serve: there it keeps what they take the place of, and adds nothing; the composite does.
+// Adds the specular ambient term to surfaces that reflect strongly, in the listed tiles, and keeps it. Finds those
+// among them that mirrored images serve: there it keeps what they take the place of, and adds nothing; the composite
+// does.
 
 layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
 layout(set = 0, binding = 1, scalar) uniform Reflection { ReflectionConstants reflection; };

@@ -77,7 +77,8 @@ Mirrored fetch_mirrored(MirrorPixel p, vec2 at) {
     ivec2 place = min(base + offset, last);
     vec4 surface = texelFetch(surface_image, place, 0);
     vec2 weights = mix(1.0 - part, part, vec2(offset));
-    float weight = (weights.x * weights.y + kLeastTexelWeight) * (same_surface(p, place, surface.y) + kLeastTexelWeight);
+    float weight =
+        (weights.x * weights.y + kLeastTexelWeight) * (same_surface(p, place, surface.y) + kLeastTexelWeight);
     weight = surface.y > 0.0 ? weight : 0.0;
     vec4 color = texelFetch(color_image, place, 0);
     sum += weight > 0.0 ? weight * color : vec4(0.0);  // texels of other tiles hold no values
