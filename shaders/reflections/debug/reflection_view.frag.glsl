@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/common/heat.glsl"
+#include "shaders/lighting/probe_rows_api.glsl"
 #include "shaders/reflections/hit_distance_api.glsl"
 #include "shaders/reflections/reflections_shared.h"
 #include "shaders/render/gbuffer_api.glsl"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shaders/reflections/reflections_shared.h"
+#include "shaders/lighting/probe_rows_api.glsl"
 
 // Radiance of all probes for each ray.
 layout(local_size_x = 64) in;
