@@ -3,7 +3,9 @@
 #include "modules/reflections/reflection_passes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
@@ -68,6 +70,13 @@ shaders::ReflectionConstants constants_of(const RenderView& view, const Reflecti
   c.blur_tail_share = knobs.pixel_roughness ? kTailShare : 0.0f;
   c.blur_across = knobs.pixel_roughness ? kLeastAcross : kAcross;
   return c;
+}
+
+/// Where reflections are accumulated, the frames show the pixels of each block in turn, and texels stand for its middle.
+void choose_pixels(shaders::ReflectionConstants& c, const RenderView& view) {
+  constexpr std::array<std::uint32_t, 4> kTurns = {0, 3, 1, 2};
+  c.first_candidate = kTurns[(view.frame - view.cut_frame) % kTurns.size()];
+  c.centered = 1;
 }
 
 /// The traced radiance of this view, if the world has it.
@@ -178,6 +187,7 @@ void announce_reflections(FrameBuilder& frame, Staging& staging, CaptureFactors&
   plan.mirror = !reference && seen == Reflective::mirror && (knobs.mirror() || plan.planar);
   if (!plan.mirror && probes.rows.empty() && !reference) return;
   plan.constants = constants_of(view, knobs, static_cast<float>(scene_unit(frame.world())));
+  if (knobs.temporal && plan.mirror && knobs.scale() > 1) choose_pixels(plan.constants, view);
   plan.constants.capture_scale = view.light_scale / captures.light_scale;
   if (knobs.proxies)
     plan.proxies = proxy_rows(world, view, world.resource<ProxySet>(), world.view_resource<ProxyTiles>(view.id),

@@ -11,7 +11,21 @@
 namespace gloam {
 namespace {
 
-constexpr float kNewShare = 0.15f;  // of a frame in the accumulated reflection
+HistoryUse kept_images(const RenderView& view) {
+  const auto scale = std::bit_cast<std::uint32_t>(view.light_scale);  // of the light in the images
+  return {.final_access = gpu::Access::compute_read, .reset = {.camera_cut = true, .most_missed = 0, .key = scale}};
+}
+
+gpu::ImageDesc kept_image(const char* name, gpu::Format format, const uvec2& size) {
+  gpu::ImageDesc desc;
+  desc.name = name;
+  desc.module = "reflections";
+  desc.format = format;
+  desc.width = size.x;
+  desc.height = size.y;
+  desc.usage = gpu::ImageUsage::sampled | gpu::ImageUsage::storage;
+  return desc;
+}
 
 }  // namespace
 
@@ -19,18 +33,14 @@ ComputeProgram temporal_program() { return {shaders::reflections::temporal_accum
 
 MirroredLight add_temporal_pass(FrameBuilder& frame, const ReflectionUniforms& uniforms, const MirrorTiles& tiles,
                                 const MirroredLight& light) {
-  gpu::ImageDesc desc;
-  desc.name = "reflection_history";
-  desc.module = "reflections";
-  desc.format = gpu::Format::rgba16_float;
-  desc.width = uniforms.constants.size.x;
-  desc.height = uniforms.constants.size.y;
-  desc.usage = gpu::ImageUsage::sampled | gpu::ImageUsage::storage;
-  const auto scale = std::bit_cast<std::uint32_t>(frame.view().light_scale);  // of the light in the images
-  const auto kept = frame.history_image_pair(
-      desc, {.final_access = gpu::Access::compute_read, .reset = {.camera_cut = true, .most_missed = 0, .key = scale}});
-  if (!frame.check(kept)) return light;
-  const bool known = kept->valid() && frame.view().has_previous;
+  const uvec2& size = uniforms.constants.size;
+  const HistoryUse use = kept_images(frame.view());
+  const auto kept =
+      frame.history_image_pair(kept_image("reflection_history", gpu::Format::rgba16_float, size), use);
+  const auto counts =
+      frame.history_image_pair(kept_image("reflection_history_count", gpu::Format::rgba8_unorm, size), use);
+  if (!frame.check(kept) || !frame.check(counts)) return light;
+  const bool known = kept->valid() && counts->valid() && frame.view().has_previous;
   ComputePass pass(frame, "reflection_temporal", temporal_program());
   pass.read("reflection", uniforms.block);
   pass.uniform("motion", motion_constants(frame.view()));
@@ -38,9 +48,11 @@ MirroredLight add_temporal_pass(FrameBuilder& frame, const ReflectionUniforms& u
   pass.read("surface_image", light.surface);
   pass.read("color_image", light.color);
   pass.read("previous_image", known ? kept->previous : ImageRef{}, Sampling::linear);
-  pass.push(known ? kNewShare : 1.0f);
+  pass.read("previous_count", known ? counts->previous : ImageRef{});
+  pass.push(known ? 1u : 0u);
   const ImageRef accumulated = pass.write("accumulated_image", kept->current);
-  pass.dispatch_over(uniforms.constants.size);
+  static_cast<void>(pass.write("count_image", counts->current));
+  pass.dispatch_over(size);
   return {accumulated, light.surface};
 }
 
