@@ -72,7 +72,8 @@ shaders::ReflectionConstants constants_of(const RenderView& view, const Reflecti
   return c;
 }
 
-/// Where reflections are accumulated, the frames show the pixels of each block in turn, and texels stand for its middle.
+/// Where reflections are accumulated, the frames show the pixels of each block in turn, and texels stand for its
+/// middle.
 void choose_pixels(shaders::ReflectionConstants& c, const RenderView& view) {
   constexpr std::array<std::uint32_t, 4> kTurns = {0, 3, 1, 2};
   c.first_candidate = kTurns[(view.frame - view.cut_frame) % kTurns.size()];

@@ -35,8 +35,7 @@ MirroredLight add_temporal_pass(FrameBuilder& frame, const ReflectionUniforms& u
                                 const MirroredLight& light) {
   const uvec2& size = uniforms.constants.size;
   const HistoryUse use = kept_images(frame.view());
-  const auto kept =
-      frame.history_image_pair(kept_image("reflection_history", gpu::Format::rgba16_float, size), use);
+  const auto kept = frame.history_image_pair(kept_image("reflection_history", gpu::Format::rgba16_float, size), use);
   const auto counts =
       frame.history_image_pair(kept_image("reflection_history_count", gpu::Format::rgba8_unorm, size), use);
   if (!frame.check(kept) || !frame.check(counts)) return light;

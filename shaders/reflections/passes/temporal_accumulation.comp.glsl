@@ -30,7 +30,7 @@ layout(push_constant, scalar) uniform Push { uint known; };  // 0: there is no p
 
 #include "shaders/reflections/mirror_surface_api.glsl"
 
-const float kMostFrames = 8.0;   // that the mean is taken over
+const float kMostFrames = 4.0;   // that the mean is taken over
 const float kDeviations = 1.25;  // of the colours around a texel, that the history may differ by
 const float kFarther = 1.5;      // ratio of distances from which on the history shows something else
 
