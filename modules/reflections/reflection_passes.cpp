@@ -140,7 +140,7 @@ void add_mirror_passes(FrameBuilder& frame, Staging& staging, const ReflectionPl
   if (knobs.screen_space) hits = add_screen_space_pass(frame, knobs, uniforms, surfaces.tiles);
   MirroredLight light = plan.planar ? add_planar_pass(frame, knobs, uniforms, surfaces, *plan.planar)
                                     : add_proxy_pass(frame, knobs, uniforms, surfaces, hits, proxies);
-  if (knobs.temporal) light = add_temporal_pass(frame, uniforms, surfaces.tiles, light);
+  if (knobs.temporal) light = add_temporal_pass(frame, uniforms, surfaces.tiles, light, knobs, captures.version);
   if (knobs.blur) light = add_glossy_passes(frame, uniforms, surfaces.tiles, light);
   add_composite_pass(frame, uniforms, surfaces, hits, light);
   frame.put(ReflectionHandles{uniforms, hits, light, surfaces.tiles.image});

@@ -11,9 +11,17 @@
 namespace gloam {
 namespace {
 
-HistoryUse kept_images(const RenderView& view) {
-  const auto scale = std::bit_cast<std::uint32_t>(view.light_scale);  // of the light in the images
-  return {.final_access = gpu::Access::compute_read, .reset = {.camera_cut = true, .most_missed = 0, .key = scale}};
+/// Of values that the light in the images depends on: with others, nothing is kept.
+std::uint64_t light_key(const RenderView& view, const ReflectionKnobs& knobs, std::uint64_t captures) {
+  const auto bits = [](float value) { return std::uint64_t{std::bit_cast<std::uint32_t>(value)}; };
+  std::uint64_t key = 0;
+  for (const std::uint64_t value :
+       {bits(view.light_scale), bits(knobs.k1), bits(knobs.k2), bits(knobs.reach_m), captures,
+        std::uint64_t{knobs.refine}, std::uint64_t{knobs.layers}, static_cast<std::uint64_t>(knobs.mode),
+        std::uint64_t{knobs.screen_space}, std::uint64_t{knobs.proxies}, std::uint64_t{knobs.light_scale},
+        std::uint64_t{knobs.hierarchical}})
+    key = (std::rotl(key, 29) ^ value) * 0x9E3779B97F4A7C15u;
+  return key;
 }
 
 gpu::ImageDesc kept_image(const char* name, gpu::Format format, const uvec2& size) {
@@ -32,9 +40,11 @@ gpu::ImageDesc kept_image(const char* name, gpu::Format format, const uvec2& siz
 ComputeProgram temporal_program() { return {shaders::reflections::temporal_accumulation_comp}; }
 
 MirroredLight add_temporal_pass(FrameBuilder& frame, const ReflectionUniforms& uniforms, const MirrorTiles& tiles,
-                                const MirroredLight& light) {
+                                const MirroredLight& light, const ReflectionKnobs& knobs, std::uint64_t captures) {
   const uvec2& size = uniforms.constants.size;
-  const HistoryUse use = kept_images(frame.view());
+  const HistoryUse use{
+      .final_access = gpu::Access::compute_read,
+      .reset = {.camera_cut = true, .most_missed = 0, .key = light_key(frame.view(), knobs, captures)}};
   const auto kept = frame.history_image_pair(kept_image("reflection_history", gpu::Format::rgba16_float, size), use);
   const auto counts =
       frame.history_image_pair(kept_image("reflection_history_count", gpu::Format::rgba8_unorm, size), use);
