@@ -44,6 +44,7 @@ vec4 mean_factor(std::span<const vec4> cells, bool up) {
 }
 
 void set_means(const CapturedLayers& probes, std::size_t layer, std::span<const vec4> cells, shaders::ProbeRow& row) {
+  if (probes.mips == 0) return;  // without images
   for (const bool up : {true, false}) {
     vec4 mean = mean_about(probes, layer, up);
     if (row.factor >= 0.0f) {

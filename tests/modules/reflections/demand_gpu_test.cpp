@@ -72,6 +72,10 @@ TEST_F(ReflectionDemand, a_blended_mirror_demands_nothing) {
   expect_nothing();
 }
 
+/// Passes of probes alone.
+constexpr const char* kProbePasses[] = {"reflection_start", "reflection_surfaces", "reflection_strong_tiles",
+                                        "reflection_surroundings"};
+
 TEST_F(ReflectionDemand, a_smooth_floor_has_the_passes_of_all_tiers) {
   proxy_and_probe();
   floor(1.0f, 0.1f);
@@ -79,9 +83,10 @@ TEST_F(ReflectionDemand, a_smooth_floor_has_the_passes_of_all_tiers) {
   EXPECT_THAT(passes, testing::IsSupersetOf({"reflection_proxies_upload", "reflection_probes_upload"}));
   frames();
   EXPECT_THAT(passes, testing::UnorderedElementsAre("reflection_start", "reflection_surfaces",
-                                                    "reflection_screen_space", "reflection_proxies",
-                                                    "reflection_dilate_x", "reflection_dilate_y", "reflection_blur_x",
-                                                    "reflection_blur_y", "reflection_sharpen", "reflection_composite"));
+                                                    "reflection_strong_tiles", "reflection_surroundings",
+                                                    "reflection_mirror_tiles", "reflection_screen_space",
+                                                    "reflection_proxies", "reflection_dilate_x", "reflection_dilate_y",
+                                                    "reflection_blur_x", "reflection_blur_y", "reflection_composite"));
   EXPECT_THAT(systems, testing::UnorderedElementsAre("ibr_proxies", "proxy_tiles"));
   EXPECT_GT(state.gpu_bytes, 0u);
 }
@@ -90,7 +95,7 @@ TEST_F(ReflectionDemand, a_rough_floor_has_the_probes_alone) {
   proxy_and_probe();
   floor(1.0f, 0.7f);
   frames();
-  EXPECT_THAT(passes, testing::ElementsAre("reflection_composite"));
+  EXPECT_THAT(passes, testing::UnorderedElementsAreArray(kProbePasses));
 }
 
 TEST_F(ReflectionDemand, a_rough_floor_without_a_probe_demands_nothing) {
@@ -112,7 +117,7 @@ TEST_F(ReflectionDemand, captures_show_captured_probes_and_no_other_tier) {
   floor(1.0f, 0.1f);
   request.settings.purpose = ViewPurpose::capture;
   frames();
-  EXPECT_THAT(passes, testing::ElementsAre("reflection_composite"));
+  EXPECT_THAT(passes, testing::UnorderedElementsAreArray(kProbePasses));
   world.resource<ReflectionCaptures>().probe_entities.clear();
   frames();
   EXPECT_THAT(passes, testing::IsEmpty());
@@ -136,7 +141,8 @@ TEST_F(ReflectionDemand, each_tier_is_drawn_only_if_it_is_wanted) {
     frames();
     EXPECT_EQ(passes.contains("reflection_screen_space"), wanted[0]) << value;
     EXPECT_EQ(passes.contains("reflection_blur_x"), wanted[1]) << value;
-    EXPECT_TRUE(passes.contains("reflection_composite")) << value;
+    EXPECT_EQ(passes.contains("reflection_composite"), wanted[1]) << value;
+    EXPECT_TRUE(passes.contains("reflection_surroundings")) << value;
   }
 }
 
@@ -167,9 +173,10 @@ TEST_F(ReflectionDemand, the_smallest_room_of_the_camera_leaves_tiers_out) {
     frames();
     const auto what = "room " + std::to_string(static_cast<int>(given.tiers)) + ", knob " + given.knob;
     EXPECT_EQ(passes.contains("reflection_screen_space"), given.screen_space) << what;
-    EXPECT_EQ(passes.contains("reflection_surfaces"), given.screen_space || given.proxies) << what;
+    EXPECT_EQ(passes.contains("reflection_mirror_tiles"), given.screen_space || given.proxies) << what;
     EXPECT_EQ(passes.contains("reflection_blur_x"), given.screen_space || given.proxies) << what;
-    EXPECT_TRUE(passes.contains("reflection_composite")) << what;
+    EXPECT_EQ(passes.contains("reflection_composite"), given.screen_space || given.proxies) << what;
+    EXPECT_TRUE(passes.contains("reflection_surroundings")) << what;
   }
 }
 

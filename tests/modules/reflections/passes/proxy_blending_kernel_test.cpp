@@ -450,10 +450,10 @@ TEST_F(ProxyBlend, reflections_fade_with_tilt_and_roughness) {
   EXPECT_GT(share(22.0, 0), share(27.0, 0));
   EXPECT_GT(share(27.0, 0), 0.0f);
   EXPECT_EQ(share(31.0, 0), 0.0f);
-  EXPECT_EQ(share(0.0, 63), 1.0f);
-  EXPECT_GT(share(0.0, 72), share(0.0, 90));
-  EXPECT_GT(share(0.0, 90), 0.0f);
-  EXPECT_EQ(share(0.0, 103), 0.0f);
+  EXPECT_EQ(share(0.0, 96), 1.0f);
+  EXPECT_GT(share(0.0, 104), share(0.0, 116));
+  EXPECT_GT(share(0.0, 116), 0.0f);
+  EXPECT_EQ(share(0.0, 126), 0.0f);
 }
 
 TEST_F(ProxyBlend, distances_are_those_of_the_format_and_spreads_grow_with_them) {

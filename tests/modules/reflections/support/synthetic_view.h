@@ -155,19 +155,25 @@ struct BoxMeeting {
   return c;
 }
 
-/// The pixel whose surface a texel of the reflection images stands for: of its 2×2 block the first that reflects, from
-/// the candidate on.
+/// Whether mirrored images serve the surface at a pixel: smooth, reflective, about horizontal, seen from above.
+[[nodiscard]] inline bool is_mirror(const SyntheticView& seen, uvec2 pixel) {
+  const std::size_t at = seen.at(pixel.x, pixel.y);
+  const std::uint32_t bytes = seen.material[at];
+  return (bytes >> 24) > 0 && (bytes & 0xFFu) < 125 && seen.object[at] >= 0 &&
+         unpack_normal_snorm16(seen.normals[at].y).y > 0.866f && seen.mirrored(pixel.x, pixel.y).y > 1e-4;
+}
+
+/// The pixel whose surface a texel of the reflection images stands for: of its 2×2 block the first that mirrors, from
+/// the candidate on; the first one if none does.
 [[nodiscard]] inline uvec2 surface_pixel(const SyntheticView& seen, std::uint32_t scale, uvec2 texel,
                                          std::uint32_t candidate = 0) {
   if (scale == 1) return texel;
-  const uvec2 last(seen.view.width - 1, seen.view.height - 1);
-  const auto pixel_of = [&](std::uint32_t i) { return glm::min(texel * 2u + uvec2(i & 1u, i >> 1), last); };
   for (std::uint32_t k = 0; k < 4; ++k) {
-    const uvec2 pixel = pixel_of((candidate + k) % 4);
-    const std::uint32_t bytes = seen.material[seen.at(pixel.x, pixel.y)];
-    if ((bytes >> 24) > 0 && (bytes & 0xFFu) < 128) return pixel;
+    const std::uint32_t i = (candidate + k) % 4;
+    const uvec2 pixel = texel * 2u + uvec2(i & 1u, i >> 1);
+    if (pixel.x < seen.view.width && pixel.y < seen.view.height && is_mirror(seen, pixel)) return pixel;
   }
-  return pixel_of(candidate);
+  return texel * 2u;
 }
 
 }  // namespace gloam::test
