@@ -103,12 +103,7 @@ class SceneScales : public JudgedReflections {
   std::uint32_t views = 0;
 };
 
-TEST_F(SceneScales, a_hundredth) {
-  for (const char* tiers : {"ssr+cube", "ibr+cube", "all"}) judge(0.01, dvec3(0.0), tiers, false);
-}
-TEST_F(SceneScales, a_hundred_times) {
-  for (const char* tiers : {"ssr+cube", "ibr+cube", "all"}) judge(100.0, dvec3(0.0), tiers, false);
-}
+// A world made in code states its unit (SceneUnits). That of a file is estimated: Scale.test_mirrors_with_all_tiers_….
 TEST_F(SceneScales, a_hundredth_with_its_unit_stated) {
   for (const char* tiers : {"ssr+cube", "ibr+cube", "all"}) judge(0.01, dvec3(0.0), tiers, true);
 }
@@ -118,9 +113,7 @@ TEST_F(SceneScales, a_hundred_times_with_its_unit_stated) {
 TEST_F(SceneScales, five_kilometres_away) {
   for (const char* tiers : {"ssr+cube", "ibr+cube", "all"}) judge(1.0, dvec3(3000.0, 16.0, -4000.0), tiers, false);
 }
-TEST_F(SceneScales, a_hundredth_at_fifty_metres) {
-  for (const bool stated : {false, true}) judge(0.01, dvec3(30.0, 0.16, -40.0), "all", stated);
-}
+TEST_F(SceneScales, a_hundredth_at_fifty_metres) { judge(0.01, dvec3(30.0, 0.16, -40.0), "all", true); }
 
 }  // namespace
 }  // namespace gloam::test
