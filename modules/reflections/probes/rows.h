@@ -7,9 +7,9 @@
 
 #include "engine/ecs/world.h"
 #include "engine/render/view.h"
+#include "modules/lighting/outputs.h"
 #include "modules/reflections/captures.h"
 #include "modules/reflections/relighting/capture_factors.h"
-#include "shaders/lighting/probes_shared.h"
 
 namespace gloam {
 

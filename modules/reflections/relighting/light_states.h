@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "engine/ecs/world.h"
+#include "modules/lighting/outputs.h"
 #include "modules/reflections/captures.h"
 #include "modules/reflections/components.h"
 #include "modules/reflections/culling/placed.h"
-#include "shaders/lighting/probes_shared.h"
 #include "shaders/reflections/reflections_shared.h"
 
 namespace gloam {

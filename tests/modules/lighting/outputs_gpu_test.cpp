@@ -273,6 +273,7 @@ TEST_F(LightingFace, light_without_specular_ambient_light_is_that_of_the_formula
   wall();
   sky();
   lights(20);
+  settings.without = {"reflections"};  // the guest takes their place
   take_specular_ambient(false);
   ASSERT_NO_FATAL_FAILURE(draw());
   expect_wall(colors_of(linear()), 1e-2, [&](const test::OracleSurface& s) {
