@@ -6,7 +6,7 @@
 #include "shaders/reflections/reflections_shared.h"
 #include "shaders/render/view_api.glsl"
 
-// The surface that a texel of the reflection images stands for, as passes/mirror_surfaces.comp.glsl stores it. Include
+// The surface that a texel of the reflection images stands for, as passes/surroundings.comp.glsl stores it. Include
 // this after the uniforms `view` and `reflection`.
 
 struct MirrorSurface {
