@@ -193,7 +193,8 @@ std::optional<Unseen> never_shown(const PlacedProxy& proxy, const ReflectingSurf
     // The camera is in the room and above the surface.
     const double top = 2.0 * room.center.y - room.floor_m + kRoomFaceSlack * unit;
     const std::uint32_t chosen[] = {i};
-    for (const ReceiverBand& band : receiver_bands(proxy, *rooms, chosen, room.center, unit).all())
+    const ReceiverBands bands = receiver_bands(proxy, *rooms, chosen, room.center, unit);
+    for (const ReceiverBand& band : bands.all())
       if (may_show(surfaces.mirrors, band.lowest_m, std::min(band.highest_m, top), proxy)) return std::nullopt;
   }
   return in_room ? std::optional(Unseen::height) : std::nullopt;
