@@ -28,6 +28,10 @@ std::uint32_t probe_constant(std::size_t rows) {
   return static_cast<std::uint32_t>(std::min<std::size_t>(rows, GLOAM_FEW_PROBES + 1));
 }
 
+gpu::SpecConstants probe_constants(std::size_t rows, bool factors) {
+  return {{"kProbes", probe_constant(rows)}, {"kFactors", factors ? 1u : 0u}};
+}
+
 ForwardLighting forward_lighting(const LightsOutputs* lights, const ShadowsOutputs* shadows) {
   ForwardLighting version;
   version.tiled = lights != nullptr && lights->has_lists();

@@ -54,6 +54,11 @@ struct SurroundingProbes {
 
 /// The constant kProbes of shaders that include surroundings_api.glsl, for this number of rows.
 [[nodiscard]] std::uint32_t probe_constant(std::size_t rows);
+/// kProbes and kFactors. factors: whether a row may have factors; shaders without them are faster.
+[[nodiscard]] gpu::SpecConstants probe_constants(std::size_t rows, bool factors);
+[[nodiscard]] inline gpu::SpecConstants probe_constants(const SurroundingProbes& probes) {
+  return probe_constants(probes.rows.size(), !probes.factors.empty());
+}
 
 /// The surroundings that surfaces mirror, from the module with SurroundingProbes, which puts this on the board in
 /// PassPhase::lists: radiance toward the eye before the surface's share, rgba16f, one texel for each block of 2×2

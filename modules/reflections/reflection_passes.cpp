@@ -229,13 +229,18 @@ void list_reflection_pipelines(const ReflectionKnobs& knobs, bool direct, bool b
   const bool planar = knobs.mode == ReflectionKnobs::Mode::planar;
   if (knobs.mode == ReflectionKnobs::Mode::off) return;
   const auto add = [&](const ComputeProgram& program) { list.push_back(pipeline_desc(program, "reflections")); };
-  add(surface_program(knobs.mirror() || planar, probes));
+  const bool mirror = knobs.mirror() || planar;
   for (const bool mirrors : {false, true}) add(list_tiles_program(mirrors));
-  add(surroundings_program(knobs.mirror() || planar, probes));
+  // A lamp may change in any frame: both kinds are made ahead.
+  for (const bool factors : {false, true}) {
+    const gpu::SpecConstants constants = probe_constants(probes, factors);
+    add(surface_program(mirror, constants));
+    add(surroundings_program(mirror, constants));
+    if (knobs.screen_space) add(screen_space_program(knobs, blended, constants));
+  }
   if (knobs.recapture)
     for (const ComputeProgram& program : recapture_programs()) add(program);
-  if (!knobs.mirror() && !planar) return;
-  if (knobs.screen_space) add(screen_space_program(knobs, blended, probes));
+  if (!mirror) return;
   add(planar ? planar_program(knobs) : proxy_program(knobs));
   if (knobs.temporal) add(temporal_program());
   if (knobs.blur)

@@ -11,6 +11,11 @@
 // their mips. Include this after the image `probe_images` and the buffers `probe_rows` and `capture_factors`; rows are
 // ordered: probes with a box from the smallest to the largest, then the global one.
 
+// Whether a row may have factors; a shader may know better.
+#ifndef GLOAM_FACTORS_IN_USE
+#define GLOAM_FACTORS_IN_USE true
+#endif
+
 // Point of a probe's map that shows a direction.
 vec2 probe_uv(vec3 direction) { return octahedral_encode(direction.xzy) * 0.5 + 0.5; }
 
@@ -27,7 +32,7 @@ vec3 probe_radiance(float layer, float emission, float factor, vec3 direction, f
   vec2 uv = probe_uv(direction);
   vec3 light = probe_layer_radiance(layer, uv, roughness);
   // A loop, not a condition: devices that are processors run both sides of a condition.
-  for (bool changed = factor >= 0.0; changed; changed = false) {
+  for (bool changed = GLOAM_FACTORS_IN_USE && factor >= 0.0; changed; changed = false) {
     vec3 unscaled = vec3(0.0);
     if (emission >= 0.0) unscaled = probe_layer_radiance(emission, uv, roughness);
     light = followed_light(light, unscaled, captured_factor(factor, GLOAM_PROBE_CELLS, uv));

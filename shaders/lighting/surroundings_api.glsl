@@ -14,6 +14,9 @@
 layout(constant_id = 26) const uint kReflects = 0u;
 // Rows, up to GLOAM_FEW_PROBES; more: SurroundingsConstants::probes rows.
 layout(constant_id = 27) const uint kProbes = 0u;
+// 0: all lamps are as captured, no row has factors.
+layout(constant_id = 28) const uint kFactors = 1u;
+#define GLOAM_FACTORS_IN_USE (kFactors != 0u)
 
 layout(set = 0, binding = GLOAM_SURROUNDINGS_BINDING, scalar) uniform Surroundings {
   SurroundingsConstants surroundings;

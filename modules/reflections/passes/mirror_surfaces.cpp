@@ -65,17 +65,20 @@ ImageRef mirror_image(FrameBuilder& frame, const char* name, gpu::Format format,
 
 }  // namespace
 
-ComputeProgram surface_program(bool mirrors, std::size_t probes) {
-  return {shaders::reflections::surfaces_comp, {{"kMirrors", mirrors ? 1u : 0u}, {"kProbes", probe_constant(probes)}}};
+ComputeProgram surface_program(bool mirrors, const gpu::SpecConstants& probes) {
+  ComputeProgram program{shaders::reflections::surfaces_comp, {{"kMirrors", mirrors ? 1u : 0u}}};
+  program.constants.set(probes);
+  return program;
 }
 
 ComputeProgram list_tiles_program(bool mirrors) {
   return {shaders::reflections::list_tiles_comp, {{"kMirrors", mirrors ? 1u : 0u}}};
 }
 
-ComputeProgram surroundings_program(bool mirrors, std::size_t probes) {
-  return {shaders::reflections::surroundings_comp,
-          {{"kMirrors", mirrors ? 1u : 0u}, {"kProbes", probe_constant(probes)}}};
+ComputeProgram surroundings_program(bool mirrors, const gpu::SpecConstants& probes) {
+  ComputeProgram program{shaders::reflections::surroundings_comp, {{"kMirrors", mirrors ? 1u : 0u}}};
+  program.constants.set(probes);
+  return program;
 }
 
 MirrorSurfaces add_surface_passes(FrameBuilder& frame, const ReflectionUniforms& uniforms, bool mirrors) {
@@ -87,7 +90,7 @@ MirrorSurfaces add_surface_passes(FrameBuilder& frame, const ReflectionUniforms&
   start_lists(frame, tiles);
   {
     ComputePass pass(frame, "reflection_surfaces",
-                     surface_program(mirrors, frame.get<SurroundingProbes>().rows.size()));
+                     surface_program(mirrors, probe_constants(frame.get<SurroundingProbes>())));
     pass.read("reflection", uniforms.block);
     read_geometry(pass, frame.get<GeometryOutputs>());
     read_surroundings(pass, frame);
@@ -108,7 +111,7 @@ void add_surroundings_passes(FrameBuilder& frame, const ReflectionUniforms& unif
   MirrorTiles& tiles = found.tiles;
   {
     ComputePass pass(frame, "reflection_surroundings",
-                     surroundings_program(mirrors, frame.get<SurroundingProbes>().rows.size()));
+                     surroundings_program(mirrors, probe_constants(frame.get<SurroundingProbes>())));
     pass.read("reflection", uniforms.block);
     read_geometry(pass, frame.get<GeometryOutputs>());
     read_surroundings(pass, frame);

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 
 #include "engine/render/declare/compute_pass.h"
@@ -10,10 +9,10 @@
 
 namespace gloam {
 
-/// probes: number of captured probes. mirrors: whether there are mirrored images.
-[[nodiscard]] ComputeProgram surface_program(bool mirrors, std::size_t probes);
+/// probes: probe_constants(). mirrors: whether there are mirrored images.
+[[nodiscard]] ComputeProgram surface_program(bool mirrors, const gpu::SpecConstants& probes);
 [[nodiscard]] ComputeProgram list_tiles_program(bool mirrors);
-[[nodiscard]] ComputeProgram surroundings_program(bool mirrors, std::size_t probes);
+[[nodiscard]] ComputeProgram surroundings_program(bool mirrors, const gpu::SpecConstants& probes);
 
 /// Puts SurroundingsOutput on the board, and lists the tiles that hold surfaces that reflect strongly. mirrors: with
 /// the cleared MirrorSurfaces::surface.

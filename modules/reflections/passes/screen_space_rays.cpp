@@ -8,16 +8,19 @@
 
 namespace gloam {
 
-ComputeProgram screen_space_program(const ReflectionKnobs& knobs, bool blended, std::size_t probes) {
-  return {blended ? shaders::reflections::screen_space_rays_blended_comp : shaders::reflections::screen_space_rays_comp,
-          {{"kHierarchical", knobs.hierarchical ? 1u : 0u}, {"kProbes", probe_constant(probes)}}};
+ComputeProgram screen_space_program(const ReflectionKnobs& knobs, bool blended, const gpu::SpecConstants& probes) {
+  ComputeProgram program{
+      blended ? shaders::reflections::screen_space_rays_blended_comp : shaders::reflections::screen_space_rays_comp,
+      {{"kHierarchical", knobs.hierarchical ? 1u : 0u}}};
+  program.constants.set(probes);
+  return program;
 }
 
 ScreenSpaceHits add_screen_space_pass(FrameBuilder& frame, const ReflectionKnobs& knobs,
                                       const ReflectionUniforms& uniforms, const MirrorTiles& tiles) {
   const BlendedLayer* blended = frame.find<BlendedLayer>();
   ComputePass pass(frame, "reflection_screen_space",
-                   screen_space_program(knobs, blended != nullptr, frame.get<SurroundingProbes>().rows.size()));
+                   screen_space_program(knobs, blended != nullptr, probe_constants(frame.get<SurroundingProbes>())));
   pass.read("reflection", uniforms.block);
   read_geometry(pass, frame.get<GeometryOutputs>());
   read_surroundings(pass, frame);

@@ -7,7 +7,8 @@
 
 namespace gloam {
 
-[[nodiscard]] ComputeProgram screen_space_program(const ReflectionKnobs& knobs, bool blended, std::size_t probes);
+[[nodiscard]] ComputeProgram screen_space_program(const ReflectionKnobs& knobs, bool blended,
+                                                  const gpu::SpecConstants& probes);
 
 /// Tier 1: follows a mirrored ray from each mirror surface through the depth image, and through BlendedLayer if there
 /// is one.

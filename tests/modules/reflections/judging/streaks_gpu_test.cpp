@@ -83,10 +83,8 @@ class LampStreaks : public JudgedReflections {
                 static_cast<double>(roughness), streak.width, expected.width, streak.length, expected.length,
                 streak.peak, expected.peak, streak.row, expected.row);
     EXPECT_GT(expected.length, 5.0);
-    // From a roughness of 0.49 on, probes alone show what a floor mirrors: no streak.
-    const bool drawn_streak = roughness < 0.45f;
-    expect_at_most(std::abs(streak.width / expected.width - 1.0), 0.2, drawn_streak ? 0.25 : 1e3, "width off by");
-    expect_at_most(std::abs(streak.peak / expected.peak - 1.0), 0.25, drawn_streak ? 0.3 : 1.0, "peak off by");
+    expect_at_most(std::abs(streak.width / expected.width - 1.0), 0.2, 0.25, "width off by");
+    expect_at_most(std::abs(streak.peak / expected.peak - 1.0), 0.25, 0.3, "peak off by");
     EXPECT_GT(expected.peak, 0.05);
   }
 };
@@ -96,7 +94,13 @@ TEST_F(LampStreaks, at_roughness_0_1) { judge(0.1f, 64); }
 TEST_F(LampStreaks, at_roughness_0_2) { judge(0.2f, 128); }
 TEST_F(LampStreaks, at_roughness_0_3) { judge(0.3f, 128); }
 TEST_F(LampStreaks, at_roughness_0_38) { judge(0.38f, 256); }
-TEST_F(LampStreaks, at_roughness_0_5) { judge(0.5f, 256); }
+// Missed (docs/measurements-reflections.md): from a roughness of 0.49 on, probes alone show what a floor mirrors.
+TEST_F(LampStreaks, at_roughness_0_5_are_left_to_the_probes) {
+  build(0.5f);
+  const LinearPicture all = drawn();
+  set("reflections.tiers", "cube");
+  EXPECT_EQ(drawn().rgba, all.rgba);
+}
 
 }  // namespace
 }  // namespace gloam::test
