@@ -24,15 +24,16 @@ vec3 probe_layer_radiance(float layer, vec2 uv, float roughness) {
   float lod = roughness * float(textureQueryLevels(probe_images) - 1);
   // The border of the image is the fold of the lower half: no texel beyond it may be filtered in.
   float half_texel = 0.5 * exp2(ceil(lod)) / float(textureSize(probe_images, 0).x);
-  return textureLod(probe_images, vec3(clamp(uv, half_texel, 1.0 - half_texel), layer), lod).rgb;
+  // Written so that NaN becomes a point of the image: a processor also looks up for threads that take no part.
+  vec2 inside = mix(vec2(half_texel), min(uv, 1.0 - half_texel), greaterThan(uv, vec2(half_texel)));
+  return textureLod(probe_images, vec3(inside, layer), lod).rgb;
 }
 
 // Radiance of a probe in a direction, with lamps as they are now. layer, emission, factor: of its row.
 vec3 probe_radiance(float layer, float emission, float factor, vec3 direction, float roughness) {
   vec2 uv = probe_uv(direction);
   vec3 light = probe_layer_radiance(layer, uv, roughness);
-  // A loop, not a condition: devices that are processors run both sides of a condition.
-  for (bool changed = GLOAM_FACTORS_IN_USE && factor >= 0.0; changed; changed = false) {
+  if (GLOAM_FACTORS_IN_USE && factor >= 0.0) {
     vec3 unscaled = vec3(0.0);
     if (emission >= 0.0) unscaled = probe_layer_radiance(emission, uv, roughness);
     light = followed_light(light, unscaled, captured_factor(factor, GLOAM_PROBE_CELLS, uv));
@@ -112,11 +113,8 @@ vec3 probes_radiance(uint count, vec3 position, vec3 normal, vec3 direction, flo
   ChosenProbes chosen = choose_probes(count, position, normal);
   covered = chosen.covered;
   vec3 light = vec3(0.0);
-  // Loops, not conditions: devices that are processors run both sides of a condition.
-  for (bool one = chosen.shares.x > 0.0; one; one = false)
-    light = chosen.shares.x * seen_in_probe(chosen.rows.x, position, direction, roughness);
-  for (bool two = chosen.shares.y > 0.0; two; two = false)
-    light += chosen.shares.y * seen_in_probe(chosen.rows.y, position, direction, roughness);
+  light = chosen.shares.x * seen_in_probe(chosen.rows.x, position, direction, roughness);
+  light += chosen.shares.y * seen_in_probe(chosen.rows.y, position, direction, roughness);
   return light * (covered / max(chosen.shares.x + chosen.shares.y, 1e-6));
 }
 

@@ -23,8 +23,7 @@ void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   vec3 own = shown(pixel), color = own;
   uint mask = masks[uint(pixel.y) * ((c.size.x + 31u) / 32u) + uint(pixel.x) / 32u];
-  // A loop and not a branch: lavapipe goes through branches that no thread takes.
-  for (bool smooth_it = (mask >> (uint(pixel.x) % 32u) & 1u) != 0u; smooth_it; smooth_it = false) {
+  if ((mask >> (uint(pixel.x) % 32u) & 1u) != 0u) {
     vec4 shares = unpackUnorm4x8(weights[uint(pixel.y) * c.size.x + uint(pixel.x)]);
     bool vertical = shares.x + shares.y > 0.0;
     float before = vertical ? shares.x : shares.z, after = vertical ? shares.y : shares.w;

@@ -38,8 +38,7 @@ void main() {
     float own = brightness(n, first + i);
     float rise = brightness(n - 1, first + i) - own;  // 0 in the first line
     bool edge = abs(rise) >= kThreshold;
-    // A loop and not a branch: lavapipe goes through branches that no thread takes.
-    for (bool unsure = edge; unsure; unsure = false) {
+    if (edge) {
       float above = abs(brightness(n - 2, first + i) - brightness(n - 1, first + i));
       float below = abs(own - brightness(n + 1, first + i));
       edge = !(max(above, below) > 2.0 * abs(rise));

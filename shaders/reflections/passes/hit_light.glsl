@@ -23,8 +23,7 @@ vec3 clean(vec3 light) {
 vec3 light_along(ivec2 pixel, vec3 direction) {
   vec4 material = texelFetch(material_image, pixel, 0);
   vec3 seen = clean(GLOAM_LIT_AT(pixel));
-  // A loop, not a condition: devices that are processors run both sides of a condition.
-  for (bool strong = reflects_strongly(material.x, material.w); strong; strong = false) {
+  if (reflects_strongly(material.x, material.w)) {
     GBufferTexel g =
         decode_gbuffer(texelFetch(base_color_image, pixel, 0), texelFetch(normal_image, pixel, 0).xy, material);
     vec3 position = relative_position(view, vec2(pixel), max(texelFetch(depth_image, pixel, 0).r, 1e-30));

@@ -90,8 +90,7 @@ Hit trace(MirrorSurface s, ScreenRay ray) {
   float faces = smoothstep(0.0, 0.1, -dot(normal, s.direction));
   hit.confidence = confidence_at(s, at.xy, max(behind_m(ray, place), 0.0), hit.distance_m) * faces;
   if (!met) hit.confidence = 0.0;
-  // A loop, not a condition: devices that are processors run both sides of a condition.
-  for (bool seen = hit.confidence > 0.0; seen; seen = false) hit.light = light_along(pixel, s.direction);
+  if (hit.confidence > 0.0) hit.light = light_along(pixel, s.direction);
   return hit;
 }
 

@@ -84,8 +84,7 @@ vec3 weakly_mirrored(ivec2 pixel, float depth) {
   vec3 light = mix(mean.below, mean.above, 0.5 + 0.5 * reflect(-p.to_eye, p.normal).y);
   light = light * surroundings.probe_scale + around * (1.0 - mean.covered);
   light = light * surroundings.fog_through + surroundings.fog_light;
-  // A loop, not a condition: devices that are processors run both sides of a condition.
-  for (bool clear = details > 0.0; clear; clear = false)
+  if (details > 0.0)
     light = mix(light, far_radiance(p, around, material.x), details);
   return light;
 }
@@ -101,8 +100,7 @@ void main() {
   weak = min(weak, ivec2(view.size) - 1);
   float depth = all(strong) ? 0.0 : texelFetch(depth_image, weak, 0).r;
   vec3 light = vec3(0.0);
-  // A loop, not a condition: devices that are processors run both sides of a condition.
-  for (bool weakly = depth > 0.0; weakly; weakly = false) light = weakly_mirrored(weak, depth);
+  if (depth > 0.0) light = weakly_mirrored(weak, depth);
   imageStore(far_image, texel, vec4(min(light, vec3(65504.0)), 1.0));
   if (kMirrors != 0u) imageStore(surface_image, texel, vec4(0.0));
   uint row = (reflection.size.x + GLOAM_REFLECTION_GROUP - 1u) / GLOAM_REFLECTION_GROUP;

@@ -77,7 +77,7 @@ void main() {
     bool inside = pixel == at, strong = inside && depth > 0.0 && reflects_strongly(g.roughness, g.reflectivity);
     if (inside && !strong) imageStore(ambient_image, pixel, vec4(0.0));
     // A loop, not a condition: devices that are processors run both sides of a condition.
-    for (bool reflects = strong; reflects; reflects = false) flags |= add_ambient(pixel, depth, g, s);
+    if (strong) flags |= add_ambient(pixel, depth, g, s);
   }
   if (kMirrors == 0u) return;
   imageStore(mirror_image, texel, uvec4(encode_mirror_surface(s, texel), 0u, 0u));

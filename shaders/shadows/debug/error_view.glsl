@@ -72,7 +72,7 @@ void main() {
   float extinction_m = 0.0;
   if (kTransmission != 0u) extinction_m = decode_extinction(texelFetch(emissive_image, pixel, 0).a);
   vec2 sum = vec2(0.0);
-  for (bool surface = depth > 0.0; surface; surface = false)
+  if (depth > 0.0)
     sum = local_differences(uvec2(pixel), position, normal, r, extinction_m) +
           directional_differences(uvec2(pixel), normal, r, extinction_m);
   float difference = sum.y > 0.0 ? sum.x / sum.y : -1.0;

@@ -149,7 +149,7 @@ Texels first_texels(uvec2 at1, float gap) {
 Texels first_texels(uvec2 at1, float gap) {
   vec4 gathered = textureGather(scratch, vec3(vec2(at1 * 2u + 1u) / float(face.size), float(face.layer)));
   // The map holds the nearest depth of resting and moving casters.
-  for (bool go = face.on_background != 0u; go; go = false)
+  if (face.on_background != 0u)
     gathered =
         max(gathered, textureGather(backgrounds, vec3(vec2(face.origin + at1 * 2u + 1u) / float(run.atlas_size), 0.0)));
   float depths[4] = float[4](gathered.w, gathered.z, gathered.x, gathered.y);
@@ -231,8 +231,8 @@ void main() {
   float gap = face.gap * float(1u << (run.first + 1u));
   // Loops of one iteration instead of branches: a device that runs threads in lockstep on a CPU can skip a loop, but
   // executes both sides of a branch.
-  for (bool go = inside && run.first == 0u; go; go = false) make_first_mips(block, gap);
-  for (bool go = inside && run.first != 0u; go; go = false) make_next_mips(block, gap);
+  if (inside && run.first == 0u) make_first_mips(block, gap);
+  if (inside && run.first != 0u) make_next_mips(block, gap);
 }
 
 #endif
