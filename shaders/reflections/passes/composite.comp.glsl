@@ -116,11 +116,12 @@ void main() {
   ivec2 texel;
   if (!mirror_texel(texel)) return;
   float sharp = sharp_share(texel);
-  for (uint i = 0u; i < reflection.scale * reflection.scale; ++i) {
+  uint i = 0u;
+  do {
     ivec2 pixel = texel * int(reflection.scale) + block_offset(i);
     bool inside = all(lessThan(uvec2(pixel), view.size));
     vec4 ambient = texelFetch(ambient_image, min(pixel, ivec2(view.size) - 1), 0);
     vec4 light = with_reflection(min(pixel, ivec2(view.size) - 1), sharp, ambient);
     if (inside && ambient.a > 0.0) imageStore(lit_image, pixel, light);
-  }
+  } while (++i < reflection.scale * reflection.scale);  // see passes/surroundings.comp.glsl
 }

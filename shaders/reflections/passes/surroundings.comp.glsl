@@ -67,8 +67,8 @@ void main() {
   s.depth = 0.0;
   s.share = 0.0;
   s.roughness = 0.0;
-  uint flags = 0u, count = reflection.scale * reflection.scale;
-  for (uint k = 0u; k < count; ++k) {
+  uint flags = 0u, count = reflection.scale * reflection.scale, k = 0u;
+  do {
     uint i = (reflection.first_candidate + k) & (count - 1u);
     ivec2 pixel = texel * int(reflection.scale) + ivec2(i & 1u, i >> 1), at = min(pixel, ivec2(view.size) - 1);
     float depth = texelFetch(depth_image, at, 0).r;
@@ -78,7 +78,7 @@ void main() {
     if (inside && !strong) imageStore(ambient_image, pixel, vec4(0.0));
     // A loop, not a condition: devices that are processors run both sides of a condition.
     if (strong) flags |= add_ambient(pixel, depth, g, s);
-  }
+  } while (++k < count);  // tested at the end: a processor goes once more through a loop that tests first
   if (kMirrors == 0u) return;
   imageStore(mirror_image, texel, uvec4(encode_mirror_surface(s, texel), 0u, 0u));
   if (flags == 0u) return;
