@@ -48,74 +48,92 @@ float probe_share(ProbeRow probe, vec3 at) {
   return clamp(min(inside.x, min(inside.y, inside.z)), 0.0, 1.0);
 }
 
-// Where a point lies in the probe's box, −1…1 inside.
-vec3 place_in_probe(ProbeRow probe, vec3 position) {
-  vec3 offset = position - probe.center;
-  return vec3(dot(probe.to_x, offset), dot(probe.to_y, offset), dot(probe.to_z, offset));
+// A vector in the axes of the probe's box; half the box has length 1.
+vec3 in_probe_axes(ProbeRow probe, vec3 v) {
+  return vec3(dot(probe.to_x, v), dot(probe.to_y, v), dot(probe.to_z, v));
 }
 
+// Where a point lies in the probe's box, −1…1 inside.
+vec3 place_in_probe(ProbeRow probe, vec3 position) { return in_probe_axes(probe, position - probe.center); }
+
 // Share of the probe at a point of a surface. A box that ends a little before the surface is that of the room behind
-// it: its share is what it is further out, along the normal. normal: unit length; zero: a point without a surface.
-float facing_share(ProbeRow probe, vec3 position, vec3 normal) {
-  vec3 at = place_in_probe(probe, position);
-  vec3 out_of_surface = vec3(dot(probe.to_x, normal), dot(probe.to_y, normal), dot(probe.to_z, normal));
+// it: its share is what it is further out, along the normal. at: place_in_probe(). normal: unit length; zero: a point
+// without a surface.
+float facing_share(ProbeRow probe, vec3 at, vec3 normal) {
+  vec3 out_of_surface = in_probe_axes(probe, normal);
   vec3 size = abs(out_of_surface);
   float longest = max(max(size.x, size.y), max(size.z, 1e-30));
   return min(probe_share(probe, at), probe_share(probe, at + out_of_surface * (probe.fade / longest)));
 }
 
-// The direction from the probe's centre to the point of its box that a ray from inside meets.
+// The direction from the probe's centre to the point of its box that a ray from inside meets; of a probe without a box,
+// the ray's.
 vec3 parallax_direction(ProbeRow probe, vec3 at, vec3 position, vec3 direction) {
-  vec3 along = vec3(dot(probe.to_x, direction), dot(probe.to_y, direction), dot(probe.to_z, direction));
+  vec3 along = in_probe_axes(probe, direction);
   along = mix(along, vec3(1e-9), lessThan(abs(along), vec3(1e-9)));
   vec3 distances = (sign(along) - at) / along;
   float distance_m = min(distances.x, min(distances.y, distances.z));
-  return position + direction * max(distance_m, 0.0) - probe.center;
+  vec3 toward = position + direction * max(distance_m, 0.0) - probe.center;
+  return probe.global > 0.5 ? direction : toward;
 }
+
+// What to look up in a probe. Its row is not read again: at a place that differs between threads, that costs processors
+// more than the lookup.
+struct ProbeLookup {
+  vec3 direction;
+  float share;
+  float layer, emission, factor;  // of its row
+};
 
 // The first two probes that have a share at a point of a surface. Others are left out: their share goes to these.
 struct ChosenProbes {
-  uvec2 rows;
-  vec2 shares;
+  ProbeLookup first, second;
   float covered;  // share of all probes, 0…1; the rest is the sky's
 };
 
-void consider_probe(inout ChosenProbes chosen, ProbeRow probe, uint row, vec3 position, vec3 normal) {
-  float share = facing_share(probe, position, normal) * (1.0 - chosen.covered);
+const ProbeLookup kNoProbe = ProbeLookup(vec3(0.0, 1.0, 0.0), 0.0, 0.0, -1.0, -1.0);
+
+void choose(inout ProbeLookup chosen, ProbeLookup probe, bool take) {
+  chosen.direction = take ? probe.direction : chosen.direction;
+  chosen.share = take ? probe.share : chosen.share;
+  chosen.layer = take ? probe.layer : chosen.layer;
+  chosen.emission = take ? probe.emission : chosen.emission;
+  chosen.factor = take ? probe.factor : chosen.factor;
+}
+
+void consider_probe(inout ChosenProbes chosen, ProbeRow probe, vec3 position, vec3 normal, vec3 direction) {
+  vec3 at = place_in_probe(probe, position);
+  float share = facing_share(probe, at, normal) * (1.0 - chosen.covered);
+  vec3 toward = parallax_direction(probe, at, position, direction);
+  ProbeLookup lookup = ProbeLookup(toward, share, probe.layer, probe.emission, probe.factor);
   chosen.covered += share;
-  bool is_first = share > 0.0 && chosen.shares.x == 0.0;
-  bool is_second = share > 0.0 && !is_first && chosen.shares.y == 0.0;
-  chosen.rows.x = is_first ? row : chosen.rows.x;
-  chosen.rows.y = is_second ? row : chosen.rows.y;
-  chosen.shares.x = is_first ? share : chosen.shares.x;
-  chosen.shares.y = is_second ? share : chosen.shares.y;
+  bool is_first = share > 0.0 && chosen.first.share == 0.0;
+  bool is_second = share > 0.0 && !is_first && chosen.second.share == 0.0;
+  choose(chosen.first, lookup, is_first);
+  choose(chosen.second, lookup, is_second);
 }
 
 #ifndef GLOAM_CHOOSE_PROBES
-ChosenProbes choose_probes(uint count, vec3 position, vec3 normal) {
-  ChosenProbes chosen = ChosenProbes(uvec2(0u), vec2(0.0), 0.0);
-  for (uint i = 0u; i < count; ++i) consider_probe(chosen, probe_rows[i], i, position, normal);
+ChosenProbes choose_probes(uint count, vec3 position, vec3 normal, vec3 direction) {
+  ChosenProbes chosen = ChosenProbes(kNoProbe, kNoProbe, 0.0);
+  for (uint i = 0u; i < count; ++i) consider_probe(chosen, probe_rows[i], position, normal, direction);
   return chosen;
 }
 #else
 GLOAM_CHOOSE_PROBES
 #endif
 
-vec3 seen_in_probe(uint row, vec3 position, vec3 direction, float roughness) {
-  ProbeRow probe = probe_rows[row];
-  vec3 toward = parallax_direction(probe, place_in_probe(probe, position), position, direction);
-  return probe_radiance(probe.layer, probe.emission, probe.factor, probe.global > 0.5 ? direction : toward, roughness);
+vec3 seen_in_probe(ProbeLookup probe, float roughness) {
+  return probe.share * probe_radiance(probe.layer, probe.emission, probe.factor, probe.direction, roughness);
 }
 
 // Radiance of all probes for a reflected ray. normal: facing_share(). covered: how much of it the probes give, 0…1; the
 // rest is the sky's.
 vec3 probes_radiance(uint count, vec3 position, vec3 normal, vec3 direction, float roughness, out float covered) {
-  ChosenProbes chosen = choose_probes(count, position, normal);
+  ChosenProbes chosen = choose_probes(count, position, normal, direction);
   covered = chosen.covered;
-  vec3 light = vec3(0.0);
-  light = chosen.shares.x * seen_in_probe(chosen.rows.x, position, direction, roughness);
-  light += chosen.shares.y * seen_in_probe(chosen.rows.y, position, direction, roughness);
-  return light * (covered / max(chosen.shares.x + chosen.shares.y, 1e-6));
+  vec3 light = seen_in_probe(chosen.first, roughness) + seen_in_probe(chosen.second, roughness);
+  return light * (covered / max(chosen.first.share + chosen.second.share, 1e-6));
 }
 
 // The same at a point without a surface.

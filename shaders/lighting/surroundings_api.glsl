@@ -27,24 +27,23 @@ layout(set = 0, binding = GLOAM_SURROUNDINGS_BINDING + 3, scalar) readonly buffe
   vec4 capture_factors[];
 };
 
-// Calls visit(row, its index) for each row; not a loop: rows at constant places of a uniform are read once, not by each
-// thread.
-#define GLOAM_FOR_EACH_PROBE(visit)                        \
-  if (kProbes > 0u) visit(surroundings.few_probes[0], 0u); \
-  if (kProbes > 1u) visit(surroundings.few_probes[1], 1u); \
-  if (kProbes > 2u) visit(surroundings.few_probes[2], 2u); \
-  if (kProbes > 3u) visit(surroundings.few_probes[3], 3u); \
-  if (kProbes > 4u) visit(surroundings.few_probes[4], 4u); \
-  if (kProbes > 5u) visit(surroundings.few_probes[5], 5u); \
-  if (kProbes > 6u)                                        \
-    for (uint i = 6u; i < surroundings.probes; ++i) visit(probe_rows[i], i);
+// Calls visit(row) for each row; not a loop: rows at constant places of a uniform are read once, not by each thread.
+#define GLOAM_FOR_EACH_PROBE(visit)                    \
+  if (kProbes > 0u) visit(surroundings.few_probes[0]); \
+  if (kProbes > 1u) visit(surroundings.few_probes[1]); \
+  if (kProbes > 2u) visit(surroundings.few_probes[2]); \
+  if (kProbes > 3u) visit(surroundings.few_probes[3]); \
+  if (kProbes > 4u) visit(surroundings.few_probes[4]); \
+  if (kProbes > 5u) visit(surroundings.few_probes[5]); \
+  if (kProbes > 6u)                                    \
+    for (uint i = 6u; i < surroundings.probes; ++i) visit(probe_rows[i]);
 
-#define GLOAM_CONSIDER(row, index) consider_probe(chosen, row, index, position, normal)
-#define GLOAM_CHOOSE_PROBES                                            \
-  ChosenProbes choose_probes(uint count, vec3 position, vec3 normal) { \
-    ChosenProbes chosen = ChosenProbes(uvec2(0u), vec2(0.0), 0.0);     \
-    GLOAM_FOR_EACH_PROBE(GLOAM_CONSIDER)                               \
-    return chosen;                                                     \
+#define GLOAM_CONSIDER(row) consider_probe(chosen, row, position, normal, direction)
+#define GLOAM_CHOOSE_PROBES                                                            \
+  ChosenProbes choose_probes(uint count, vec3 position, vec3 normal, vec3 direction) { \
+    ChosenProbes chosen = ChosenProbes(kNoProbe, kNoProbe, 0.0);                       \
+    GLOAM_FOR_EACH_PROBE(GLOAM_CONSIDER)                                               \
+    return chosen;                                                                     \
   }
 #include "shaders/lighting/probes_api.glsl"
 

@@ -56,7 +56,7 @@ struct ProbeMean {
 };
 
 void add_mean(inout ProbeMean mean, ProbeRow probe, vec3 position, vec3 normal) {
-  float share = facing_share(probe, position, normal) * (1.0 - mean.covered);
+  float share = facing_share(probe, place_in_probe(probe, position), normal) * (1.0 - mean.covered);
   mean.covered += share;
   mean.above += share * probe.above.rgb;
   mean.below += share * probe.below.rgb;
@@ -64,7 +64,7 @@ void add_mean(inout ProbeMean mean, ProbeRow probe, vec3 position, vec3 normal) 
 
 ProbeMean probe_mean(vec3 position, vec3 normal) {
   ProbeMean mean = ProbeMean(vec3(0.0), vec3(0.0), 0.0);
-#define GLOAM_ADD_MEAN(row, index) add_mean(mean, row, position, normal)
+#define GLOAM_ADD_MEAN(row) add_mean(mean, row, position, normal)
   GLOAM_FOR_EACH_PROBE(GLOAM_ADD_MEAN)
   return mean;
 }
