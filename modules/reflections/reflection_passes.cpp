@@ -248,7 +248,8 @@ void list_reflection_pipelines(const ReflectionKnobs& knobs, bool direct, bool b
       add(dilate_program(columns, direct));
       add(blur_program(columns, direct));
     }
-  for (const bool bumpy : {false, true}) add(composite_program(knobs.screen_space, bumpy));
+  for (const bool bumpy : {false, true})
+    add(composite_program(knobs.screen_space, bumpy, knobs.temporal && knobs.scale() > 1));
 }
 
 }  // namespace gloam

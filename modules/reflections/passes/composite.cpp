@@ -9,15 +9,19 @@
 
 namespace gloam {
 
-ComputeProgram composite_program(bool screen_space, bool bumpy) {
+ComputeProgram composite_program(bool screen_space, bool bumpy, bool centered) {
   return {shaders::reflections::composite_comp,
-          {{"kColumns", 1u}, {"kScreenSpace", screen_space ? 1u : 0u}, {"kBumpy", bumpy ? 1u : 0u}}};
+          {{"kColumns", 1u},
+           {"kScreenSpace", screen_space ? 1u : 0u},
+           {"kBumpy", bumpy ? 1u : 0u},
+           {"kCentered", centered ? 1u : 0u}}};
 }
 
 void add_composite_pass(FrameBuilder& frame, const ReflectionUniforms& uniforms, const MirrorSurfaces& surfaces,
                         const ScreenSpaceHits& hits, const MirroredLight& light) {
   const bool screen_space = static_cast<bool>(hits.color);
-  ComputePass pass(frame, "reflection_composite", composite_program(screen_space, false));
+  const bool centered = uniforms.constants.centered != 0;
+  ComputePass pass(frame, "reflection_composite", composite_program(screen_space, false, centered));
   pass.read("reflection", uniforms.block);
   read_geometry(pass, frame.get<GeometryOutputs>());
   read_surroundings(pass, frame);
@@ -29,7 +33,7 @@ void add_composite_pass(FrameBuilder& frame, const ReflectionUniforms& uniforms,
   LitOutput& lit = frame.get<LitOutput>();
   lit.color = pass.write("lit_image", lit.color);
   dispatch_mirror_tiles(pass, surfaces.tiles, GLOAM_LIST_FLAT);
-  pass.use(composite_program(screen_space, true));
+  pass.use(composite_program(screen_space, true, centered));
   dispatch_mirror_tiles(pass, surfaces.tiles, GLOAM_LIST_BUMPY);
 }
 

@@ -9,7 +9,7 @@
 namespace gloam {
 
 /// screen_space: whether hits are looked up again where mirrors are smooth. bumpy: for tiles with slanted normals.
-[[nodiscard]] ComputeProgram composite_program(bool screen_space, bool bumpy);
+[[nodiscard]] ComputeProgram composite_program(bool screen_space, bool bumpy, bool centered);
 
 /// Adds the mirrored images to LitOutput, in the tiles that hold a mirror surface: upscaled, with bent lookup, sharp
 /// hits and fog.

@@ -16,7 +16,8 @@
 
 layout(constant_id = 0) const uint kColumns = 1u;  // the greater width of the blur decides
 layout(constant_id = 1) const uint kScreenSpace = 1u;
-layout(constant_id = 2) const uint kBumpy = 1u;  // 0: all normals are vertical
+layout(constant_id = 2) const uint kBumpy = 1u;     // 0: all normals are vertical
+layout(constant_id = 3) const uint kCentered = 0u;  // 1: texels stand for the middles of blocks, not for first pixels
 
 layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
 layout(set = 0, binding = 1, scalar) uniform Reflection { ReflectionConstants reflection; };
@@ -35,7 +36,6 @@ layout(set = 0, binding = 15, scalar) uniform Environment { EnvironmentConstants
 
 #define GLOAM_MIRROR_TILES 10
 #define GLOAM_WIDTH_WITHOUT_CONSTANT
-#define GLOAM_BENDS
 #include "shaders/reflections/passes/upscale.glsl"
 #include "shaders/reflections/passes/blur_width.glsl"
 #include "shaders/lighting/mirror_share_api.glsl"
@@ -91,15 +91,19 @@ float sharp_share(ivec2 texel) {
   return smoothstep(kSureScreen, 1.0, screen) * (1.0 - smoothstep(kSharp, kBlurred, sigma));
 }
 
-// The lit picture at a pixel with its reflection. ambient: SpecularAmbientOutput there.
-vec4 with_reflection(ivec2 pixel, float sharp, vec4 ambient) {
+// The lit picture at a pixel with its reflection. texels: those about its block. ambient: StrongAmbient there.
+vec4 with_reflection(ivec2 pixel, MirrorTexels texels, float sharp, vec4 ambient) {
   GBufferTexel g = decode_gbuffer(texelFetch(base_color_image, pixel, 0), texelFetch(normal_image, pixel, 0).xy,
                                   texelFetch(material_image, pixel, 0));
   float depth = texelFetch(depth_image, pixel, 0).r;
   vec3 position = relative_position(view, vec2(pixel), max(depth, 1e-30));
   vec3 to_eye = normalize(to_viewer(view, position));
   ShadingPoint p = shading_point(position, to_eye, g.normal, g.base_color, g.metallic, g.roughness);
-  Mirrored m = mirrored_at(pixel, mirror_pixel(pixel, depth, position, g.face_normal, g.roughness), g.normal);
+  MirrorPixel of_pixel = mirror_pixel(pixel, depth, position, g.face_normal, g.roughness);
+  // Between the first pixels of blocks, all pixels of a block lie between the same four texels.
+  vec2 part = vec2(pixel - texels.upper_left.place * int(reflection.scale)) / float(reflection.scale);
+  Mirrored straight = kCentered != 0u ? fetch_mirrored(of_pixel, vec2(pixel)) : between_texels(of_pixel, texels, part);
+  Mirrored m = bent_mirrored(pixel, of_pixel, g.normal, straight);
   vec3 ray = reflect(-to_eye, g.normal);
   ivec2 at;
   bool found = sharp > 0.0 && m.confidence > 0.0 && pixel_of_hit(position, ray, m.distance_m, at);
@@ -116,12 +120,13 @@ void main() {
   ivec2 texel;
   if (!mirror_texel(texel)) return;
   float sharp = sharp_share(texel);
+  MirrorTexels texels = fetch_texels(texel);
   uint i = 0u;
   do {
     ivec2 pixel = texel * int(reflection.scale) + block_offset(i);
     bool inside = all(lessThan(uvec2(pixel), view.size));
     vec4 ambient = texelFetch(ambient_image, min(pixel, ivec2(view.size) - 1), 0);
-    vec4 light = with_reflection(min(pixel, ivec2(view.size) - 1), sharp, ambient);
+    vec4 light = with_reflection(min(pixel, ivec2(view.size) - 1), texels, sharp, ambient);
     if (inside && ambient.a > 0.0) imageStore(lit_image, pixel, light);
   } while (++i < reflection.scale * reflection.scale);  // see passes/surroundings.comp.glsl
 }

@@ -8,8 +8,8 @@
 #include "shaders/reflections/reflections_shared.h"
 #include "shaders/render/view_api.glsl"
 
-// Looks the reflection of a pixel up in the reflection images. Include this after the uniforms `view` and `reflection`
-// and the images color_image, surface_image and mirror_image.
+// Looks the reflection of a pixel up in the reflection images. Include this after the uniforms `view` and `reflection`,
+// the images color_image, surface_image and mirror_image, and the constants kBumpy and kCentered.
 
 struct Mirrored {
   vec3 light;        // premultiplied by the confidence
@@ -54,45 +54,77 @@ MirrorPixel mirror_pixel(ivec2 pixel, float depth, vec3 position, vec3 face_norm
   return p;
 }
 
+struct MirrorTexel {
+  ivec2 place;
+  vec4 color;  // premultiplied by the confidence in a
+  float roughness;
+  float distance_m;
+  float depth;  // reversed Z of the pixel that it stands for
+  ivec2 pixel;  // that pixel
+};
+
+MirrorTexel fetch_texel(ivec2 texel) {
+  ivec2 place = min(texel, ivec2(reflection.size) - 1);
+  vec4 surface = texelFetch(surface_image, place, 0);
+  uvec2 stored = texelFetch(mirror_image, place, 0).xy;
+  return MirrorTexel(place, texelFetch(color_image, place, 0), surface.y,
+                     reflection.unit_m * unpack_hit_distance(surface.zw), uintBitsToFloat(stored.x),
+                     mirror_pixel_of(stored, place));
+}
+
+// Four texels in a square.
+struct MirrorTexels {
+  MirrorTexel upper_left, upper_right, lower_left, lower_right;
+};
+
+MirrorTexels fetch_texels(ivec2 upper_left) {
+  return MirrorTexels(fetch_texel(upper_left), fetch_texel(upper_left + ivec2(1, 0)),
+                      fetch_texel(upper_left + ivec2(0, 1)), fetch_texel(upper_left + ivec2(1)));
+}
+
 // How far a texel belongs to the pixel's surface, 0…1: it lies in its plane, and is as rough.
-float same_surface(MirrorPixel p, ivec2 texel, float roughness) {
-  uvec2 stored = texelFetch(mirror_image, texel, 0).xy;
-  vec2 offset = vec2(mirror_pixel_of(stored, texel)) - p.pixel;
-  float apart = uintBitsToFloat(stored.x) * p.per_depth - p.depth - dot(p.slope, offset);
-  float rougher = (roughness - p.roughness) / kRoughnessStep;
+float same_surface(MirrorPixel p, MirrorTexel t) {
+  float apart = t.depth * p.per_depth - p.depth - dot(p.slope, vec2(t.pixel) - p.pixel);
+  float rougher = (t.roughness - p.roughness) / kRoughnessStep;
   return 1.0 / (1.0 + apart * apart + rougher * rougher);
 }
 
-// Between the four nearest texels that reflect. at: pixels of the view, centres at whole numbers.
+struct MirroredSum {
+  vec4 light;
+  float weight, greatest_weight;
+  float nearest_m, mean_m, least_m, greatest_m;  // distances: of the heaviest texel, weighted, of all that count
+};
+
+void add_texel(inout MirroredSum sum, MirrorPixel p, MirrorTexel t, float share) {
+  float weight = (share + kLeastTexelWeight) * (same_surface(p, t) + kLeastTexelWeight);
+  weight = t.roughness > 0.0 ? weight : 0.0;
+  sum.light += weight > 0.0 ? weight * t.color : vec4(0.0);  // texels of other tiles hold no values
+  sum.weight += weight;
+  sum.nearest_m = weight > sum.greatest_weight ? t.distance_m : sum.nearest_m;
+  sum.mean_m += weight * t.distance_m;
+  sum.least_m = weight > 1e-3 ? min(sum.least_m, t.distance_m) : sum.least_m;
+  sum.greatest_m = weight > 1e-3 ? max(sum.greatest_m, t.distance_m) : sum.greatest_m;
+  sum.greatest_weight = max(sum.greatest_weight, weight);
+}
+
+// Between four texels, those that reflect. part: 0…1 from the left and upper ones to the right and lower ones.
+Mirrored between_texels(MirrorPixel p, MirrorTexels t, vec2 part) {
+  MirroredSum sum = MirroredSum(vec4(0.0), 0.0, 0.0, 0.0, 0.0, 1e30, 0.0);
+  add_texel(sum, p, t.upper_left, (1.0 - part.x) * (1.0 - part.y));
+  add_texel(sum, p, t.upper_right, part.x * (1.0 - part.y));
+  add_texel(sum, p, t.lower_left, (1.0 - part.x) * part.y);
+  add_texel(sum, p, t.lower_right, part.x * part.y);
+  vec4 light = sum.weight > 0.0 ? sum.light / sum.weight : vec4(0.0);
+  bool one_surface = sum.weight > 0.0 && sum.greatest_m < kOneSurface * sum.least_m;
+  return Mirrored(light.rgb, light.a, one_surface ? sum.mean_m / sum.weight : sum.nearest_m);
+}
+
+// The same at any point. at: pixels of the view, centres at whole numbers.
 Mirrored fetch_mirrored(MirrorPixel p, vec2 at) {
-  vec2 candidate = vec2(reflection.first_candidate & 1u, reflection.first_candidate >> 1);
-  vec2 shown = reflection.scale == 1u ? vec2(0.0) : reflection.centered != 0u ? vec2(0.5) : candidate;
+  vec2 shown = reflection.scale == 1u ? vec2(0.0) : kCentered != 0u ? vec2(0.5) : vec2(0.0);
   vec2 texel = clamp((at - shown) / float(reflection.scale), vec2(0.0), vec2(reflection.size - 1u));
-  ivec2 base = ivec2(texel), last = ivec2(reflection.size) - 1;
-  vec2 part = texel - vec2(base);
-  vec4 sum = vec4(0.0);
-  float total = 0.0, most = 0.0, nearest_m = 0.0, mean_m = 0.0, least_m = 1e30, greatest_m = 0.0;
-  for (int i = 0; i < 4; ++i) {
-    ivec2 offset = ivec2(i & 1, i >> 1);
-    ivec2 place = min(base + offset, last);
-    vec4 surface = texelFetch(surface_image, place, 0);
-    vec2 weights = mix(1.0 - part, part, vec2(offset));
-    float weight =
-        (weights.x * weights.y + kLeastTexelWeight) * (same_surface(p, place, surface.y) + kLeastTexelWeight);
-    weight = surface.y > 0.0 ? weight : 0.0;
-    vec4 color = texelFetch(color_image, place, 0);
-    sum += weight > 0.0 ? weight * color : vec4(0.0);  // texels of other tiles hold no values
-    total += weight;
-    float distance_m = reflection.unit_m * unpack_hit_distance(surface.zw);
-    nearest_m = weight > most ? distance_m : nearest_m;
-    mean_m += weight * distance_m;
-    least_m = weight > 1e-3 ? min(least_m, distance_m) : least_m;
-    greatest_m = weight > 1e-3 ? max(greatest_m, distance_m) : greatest_m;
-    most = max(most, weight);
-  }
-  sum = total > 0.0 ? sum / total : vec4(0.0);
-  bool one_surface = total > 0.0 && greatest_m < kOneSurface * least_m;
-  return Mirrored(sum.rgb, sum.a, one_surface ? mean_m / total : nearest_m);
+  ivec2 base = ivec2(texel);
+  return between_texels(p, fetch_texels(base), texel - vec2(base));
 }
 
 // The pixel at which a horizontal surface shows what this one shows: its ray ends at a point whose mirror image in the
@@ -108,11 +140,9 @@ vec2 bent_pixel(vec2 pixel, vec3 position, vec3 normal, float distance_m) {
 const float kMuchCloser = 0.5;  // share of the old fetch's distance below which the bent one has met something else
 const float kMostBend = 0.25;   // of the picture's height
 
-Mirrored mirrored_at(ivec2 pixel, MirrorPixel p, vec3 normal) {
-  Mirrored straight = fetch_mirrored(p, vec2(pixel));
-#ifdef GLOAM_BENDS
+// straight: what a horizontal surface shows at the pixel.
+Mirrored bent_mirrored(ivec2 pixel, MirrorPixel p, vec3 normal, Mirrored straight) {
   if (kBumpy == 0u) return straight;
-#endif
   if (straight.confidence <= 0.0 || normal.y >= GLOAM_FLAT_MIRROR) return straight;
   vec2 bend = bent_pixel(vec2(pixel), p.position, normal, straight.distance_m) - vec2(pixel);
   float most = kMostBend * float(view.size.y), length_px = length(bend);
