@@ -241,7 +241,9 @@ void list_reflection_pipelines(const ReflectionKnobs& knobs, bool direct, bool b
   if (knobs.recapture)
     for (const ComputeProgram& program : recapture_programs()) add(program);
   if (!mirror) return;
-  add(planar ? planar_program(knobs) : proxy_program(knobs));
+  if (planar) add(planar_program(knobs));
+  for (const bool factors : {false, true})
+    if (!planar) add(proxy_program(knobs, factors));
   if (knobs.temporal) add(temporal_program());
   if (knobs.blur)
     for (const bool columns : {false, true}) {

@@ -8,19 +8,20 @@
 
 namespace gloam {
 
-ComputeProgram proxy_program(const ReflectionKnobs& knobs) {
+ComputeProgram proxy_program(const ReflectionKnobs& knobs, bool factors) {
   return {shaders::reflections::proxy_blending_comp,
           {{"kScreenSpace", knobs.screen_space ? 1u : 0u},
            {"kProxies", knobs.proxies ? 1u : 0u},
            {"kLayers", knobs.layers},
            {"kSphereTest", knobs.sphere_test ? 1u : 0u},
            {"kNaive", knobs.naive ? 1u : 0u},
-           {"kPixelRoughness", knobs.pixel_roughness ? 1u : 0u}}};
+           {"kPixelRoughness", knobs.pixel_roughness ? 1u : 0u},
+           {"kFactors", factors ? 1u : 0u}}};
 }
 
 MirroredLight add_proxy_pass(FrameBuilder& frame, const ReflectionKnobs& knobs, const ReflectionUniforms& uniforms,
                              const MirrorSurfaces& surfaces, const ScreenSpaceHits& hits, const ProxyInputs& proxies) {
-  ComputePass pass(frame, "reflection_proxies", proxy_program(knobs));
+  ComputePass pass(frame, "reflection_proxies", proxy_program(knobs, !proxies.factors.empty()));
   pass.read("reflection", uniforms.block);
   pass.read("tiles", uniforms.tiles);
   pass.read("ssr_color", hits.color);

@@ -7,7 +7,8 @@
 
 namespace gloam {
 
-[[nodiscard]] ComputeProgram proxy_program(const ReflectionKnobs& knobs);
+/// factors: whether proxies may have some (CaptureFactor).
+[[nodiscard]] ComputeProgram proxy_program(const ReflectionKnobs& knobs, bool factors);
 
 /// Tier 2, merged with the hits of tier 1. Writes on `surfaces.surface`.
 [[nodiscard]] MirroredLight add_proxy_pass(FrameBuilder& frame, const ReflectionKnobs& knobs,

@@ -15,6 +15,7 @@ layout(constant_id = 2) const uint kLayers = 4u;       // entries of the sorted 
 layout(constant_id = 3) const uint kSphereTest = 1u;
 layout(constant_id = 4) const uint kNaive = 0u;           // 1: every proxy of the world for every pixel, without tiles
 layout(constant_id = 5) const uint kPixelRoughness = 1u;  // 0: one spread for all surfaces, as in the paper
+layout(constant_id = 6) const uint kFactors = 1u;         // 0: all lamps are as captured, no row has factors
 
 layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
 layout(set = 0, binding = 1, scalar) uniform Reflection { ReflectionConstants reflection; };
@@ -61,7 +62,7 @@ vec4 proxy_light(ProxyRow proxy, ProxyHit hit, MirrorSurface s) {
   float away = view.orthographic != 0u ? 1.0 : length(s.position) + hit.distance_m;
   float lod = log2(max(length(view.ray_dx.xyz) * float(reflection.scale) * away / proxy.texel_m, 1.0));
   vec4 light = textureLod(proxy_images, vec3(hit.uv, proxy.layer), lod);
-  if (proxy.factor >= 0.0) {
+  if (kFactors != 0u && proxy.factor >= 0.0) {
     vec3 unscaled = vec3(0.0);
     if (proxy.emission >= 0.0) unscaled = textureLod(proxy_images, vec3(hit.uv, proxy.emission), lod).rgb;
     light.rgb = followed_light(light.rgb, unscaled, captured_factor(proxy.factor, GLOAM_PROXY_CELLS, hit.uv));
@@ -83,9 +84,16 @@ void add_proxies(MirrorSurface s, int column) {
     return;
   }
   uint tile = uint(column) * tiles.tiles / reflection.size.x;
-  for (uint word = 0u; word < tiles.words; ++word)
-    for (uint bits = proxy_masks[tile * tiles.words + word]; bits != 0u; bits &= bits - 1u)
-      try_proxy(word * 32u + uint(findLSB(bits)), s);
+  if (tiles.words == 0u) return;
+  // Tested at the end: a processor goes once more through a loop that tests first.
+  uint word = 0u;
+  do {
+    uint bits = proxy_masks[tile * tiles.words + word];
+    if (bits != 0u) do {
+        try_proxy(word * 32u + uint(findLSB(bits)), s);
+        bits &= bits - 1u;
+      } while (bits != 0u);
+  } while (++word < tiles.words);
 }
 
 void main() {
