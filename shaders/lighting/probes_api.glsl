@@ -49,9 +49,7 @@ float probe_share(ProbeRow probe, vec3 at) {
 }
 
 // A vector in the axes of the probe's box; half the box has length 1.
-vec3 in_probe_axes(ProbeRow probe, vec3 v) {
-  return vec3(dot(probe.to_x, v), dot(probe.to_y, v), dot(probe.to_z, v));
-}
+vec3 in_probe_axes(ProbeRow probe, vec3 v) { return vec3(dot(probe.to_x, v), dot(probe.to_y, v), dot(probe.to_z, v)); }
 
 // Where a point lies in the probe's box, −1…1 inside.
 vec3 place_in_probe(ProbeRow probe, vec3 position) { return in_probe_axes(probe, position - probe.center); }

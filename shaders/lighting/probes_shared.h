@@ -21,8 +21,6 @@ struct ProbeRow {
   vec3 to_z;
   float emission;  // layer of the part of the light that factors do not scale; −1: they scale all
   float factor;    // first of the probe's factors; −1: all are 1
-  vec4 above;      // rgb: mean radiance about the direction up, as a surface of roughness 1 mirrors it
-  vec4 below;      // the same about the direction down
 };
 
 /// What surfaces mirror of their surroundings, besides sky and ground.

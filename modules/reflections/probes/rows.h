@@ -17,11 +17,10 @@ namespace gloam {
 inline constexpr float kProbeFade = 0.2f;
 
 /// Rows of all captured probes with a box of positive, finite size, from the smallest volume to the largest, then the
-/// global one. Probes of equal volume come in the order of their entities' indices. factors: by layer of the captures,
-/// cells: CaptureFactors::cells(); empty: captured light is shown as captured.
+/// global one. Probes of equal volume come in the order of their entities' indices. factors: by layer of the captures;
+/// empty: captured light is shown as captured.
 [[nodiscard]] std::vector<shaders::ProbeRow> probe_rows(const World& world, const RenderView& view,
                                                         const ReflectionCaptures& captures,
-                                                        std::span<const CaptureFactor> factors = {},
-                                                        std::span<const vec4> cells = {});
+                                                        std::span<const CaptureFactor> factors = {});
 
 }  // namespace gloam

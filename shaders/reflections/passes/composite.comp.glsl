@@ -100,10 +100,7 @@ vec4 with_reflection(ivec2 pixel, MirrorTexels texels, float sharp, vec4 ambient
   vec3 to_eye = normalize(to_viewer(view, position));
   ShadingPoint p = shading_point(position, to_eye, g.normal, g.base_color, g.metallic, g.roughness);
   MirrorPixel of_pixel = mirror_pixel(pixel, depth, position, g.face_normal, g.roughness);
-  // Between the first pixels of blocks, all pixels of a block lie between the same four texels.
-  vec2 part = vec2(pixel - texels.upper_left.place * int(reflection.scale)) / float(reflection.scale);
-  Mirrored straight = kCentered != 0u ? fetch_mirrored(of_pixel, vec2(pixel)) : between_texels(of_pixel, texels, part);
-  Mirrored m = bent_mirrored(pixel, of_pixel, g.normal, straight);
+  Mirrored m = mirrored_at(pixel, of_pixel, texels, g.normal);
   vec3 ray = reflect(-to_eye, g.normal);
   ivec2 at;
   bool found = sharp > 0.0 && m.confidence > 0.0 && pixel_of_hit(position, ray, m.distance_m, at);

@@ -39,36 +39,6 @@ bvec4 strong_pixels(ivec2 texel) {
                reflects_strongly(roughness.z, reflectivity.z), reflects_strongly(roughness.w, reflectivity.w));
 }
 
-// Shares of the mirrored light. Up to the first, a surface shows the mean of the probes about the direction; from the
-// second on, their maps are looked up. What is mirrored by a fiftieth does not show details.
-const float kFaint = 0.02;
-const float kClear = 0.04;
-
-// About the share of its surroundings that a rough dielectric mirrors (specular_share()): 0.03 straight on.
-float about_share(float n_dot_v) {
-  float grazing = (1.0 - n_dot_v) * (1.0 - n_dot_v);
-  return 0.03 + 0.4 * grazing * grazing;
-}
-
-struct ProbeMean {
-  vec3 above, below;
-  float covered;
-};
-
-void add_mean(inout ProbeMean mean, ProbeRow probe, vec3 position, vec3 normal) {
-  float share = facing_share(probe, place_in_probe(probe, position), normal) * (1.0 - mean.covered);
-  mean.covered += share;
-  mean.above += share * probe.above.rgb;
-  mean.below += share * probe.below.rgb;
-}
-
-ProbeMean probe_mean(vec3 position, vec3 normal) {
-  ProbeMean mean = ProbeMean(vec3(0.0), vec3(0.0), 0.0);
-#define GLOAM_ADD_MEAN(row) add_mean(mean, row, position, normal)
-  GLOAM_FOR_EACH_PROBE(GLOAM_ADD_MEAN)
-  return mean;
-}
-
 // What the surface at a pixel mirrors of its surroundings.
 vec3 weakly_mirrored(ivec2 pixel, float depth) {
   vec4 material = texelFetch(material_image, pixel, 0);
@@ -76,17 +46,7 @@ vec3 weakly_mirrored(ivec2 pixel, float depth) {
   p.normal = unpack_normal(texelFetch(normal_image, pixel, 0).x);
   p.position = relative_position(view, vec2(pixel), max(depth, 1e-30));
   p.to_eye = normalize(to_viewer(view, p.position));
-  vec3 around = mirrored_radiance(environment, p, material.x);
-  if (kProbes == 0u) return around * surroundings.fog_through + surroundings.fog_light;
-  float share = about_share(clamp(dot(p.normal, p.to_eye), 0.0, 1.0)) * material.w;
-  float details = clamp((share - kFaint) / (kClear - kFaint), 0.0, 1.0);
-  ProbeMean mean = probe_mean(p.position, p.normal);
-  vec3 light = mix(mean.below, mean.above, 0.5 + 0.5 * reflect(-p.to_eye, p.normal).y);
-  light = light * surroundings.probe_scale + around * (1.0 - mean.covered);
-  light = light * surroundings.fog_through + surroundings.fog_light;
-  if (details > 0.0)
-    light = mix(light, far_radiance(p, around, material.x), details);
-  return light;
+  return far_radiance(p, mirrored_radiance(environment, p, material.x), material.x);
 }
 
 void main() {

@@ -140,8 +140,11 @@ vec2 bent_pixel(vec2 pixel, vec3 position, vec3 normal, float distance_m) {
 const float kMuchCloser = 0.5;  // share of the old fetch's distance below which the bent one has met something else
 const float kMostBend = 0.25;   // of the picture's height
 
-// straight: what a horizontal surface shows at the pixel.
-Mirrored bent_mirrored(ivec2 pixel, MirrorPixel p, vec3 normal, Mirrored straight) {
+// texels: fetch_texels() of the pixel's block. Where texels stand for first pixels, all pixels of a block lie between
+// the same four.
+Mirrored mirrored_at(ivec2 pixel, MirrorPixel p, MirrorTexels texels, vec3 normal) {
+  vec2 part = vec2(pixel - texels.upper_left.place * int(reflection.scale)) / float(reflection.scale);
+  Mirrored straight = kCentered != 0u ? fetch_mirrored(p, vec2(pixel)) : between_texels(p, texels, part);
   if (kBumpy == 0u) return straight;
   if (straight.confidence <= 0.0 || normal.y >= GLOAM_FLAT_MIRROR) return straight;
   vec2 bend = bent_pixel(vec2(pixel), p.position, normal, straight.distance_m) - vec2(pixel);

@@ -19,6 +19,7 @@ layout(set = 0, binding = 5) uniform sampler2D surface_image;
 layout(set = 0, binding = 7) uniform usampler2D mirror_image;
 layout(set = 0, binding = 6, scalar) writeonly buffer Lights { vec4 lights[]; };
 
+const uint kBumpy = 1u, kCentered = 0u;
 #include "shaders/reflections/passes/upscale.glsl"
 
 void main() {
@@ -28,6 +29,6 @@ void main() {
   vec3 position = relative_position(view, vec2(pixel), max(depth, 1e-9));
   uvec2 normals = texelFetch(normal_image, pixel, 0).xy;
   MirrorPixel p = mirror_pixel(pixel, depth, position, unpack_normal(normals.y), 1.0 / 255.0);
-  Mirrored m = mirrored_at(pixel, p, unpack_normal(normals.x));
+  Mirrored m = mirrored_at(pixel, p, fetch_texels(pixel / int(reflection.scale)), unpack_normal(normals.x));
   lights[uint(pixel.y) * view.size.x + uint(pixel.x)] = vec4(m.light, m.confidence);
 }
