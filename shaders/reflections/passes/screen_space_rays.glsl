@@ -47,6 +47,11 @@ const float kAwayFromCamera = 0.35;  // cosine between ray and direction to the 
 const float kTowardCamera = 0.85;    // and where it ends
 const float kHighStart = 0.75;       // share of the reach where confidence begins to fall
 
+// Whether a ray is followed. Kernels of tests count the answers.
+#ifndef GLOAM_FOLLOWED
+#define GLOAM_FOLLOWED(followed) (followed)
+#endif
+
 struct Hit {
   vec3 light;
   float confidence;
@@ -54,14 +59,20 @@ struct Hit {
   bool blended;  // blended surfaces are in `light`
 };
 
-// Confidence in a hit `delta_m` behind the surface at `at` on the screen.
-float confidence_at(MirrorSurface s, vec2 at, float delta_m, float distance_m) {
+// Confidence in the ray's direction, 0 if it turns toward the camera: there the picture shows the far sides of what it
+// meets.
+float away_from_camera(MirrorSurface s) {
+  float toward = dot(s.direction, normalize(to_viewer(view, s.position)));
+  return 1.0 - smoothstep(kAwayFromCamera, kTowardCamera, toward);
+}
+
+// Confidence in a hit `delta_m` behind the surface at `at` on the screen. away: away_from_camera(s).
+float confidence_at(MirrorSurface s, float away, vec2 at, float delta_m, float distance_m) {
   vec2 edge = min(at, vec2(view.size) - at) * view.inverse_size;
   float inside = clamp(min(edge.x, edge.y) / kEdgeShare, 0.0, 1.0);
   float height = distance_m * s.direction.y / reflection.reach_m;
-  float toward = dot(s.direction, normalize(to_viewer(view, s.position)));
   return (1.0 - smoothstep(0.5, 1.0, delta_m / reflection.thickness_m)) * inside *
-         (1.0 - smoothstep(kHighStart, 1.0, height)) * (1.0 - smoothstep(kAwayFromCamera, kTowardCamera, toward));
+         (1.0 - smoothstep(kHighStart, 1.0, height)) * away;
 }
 
 // The place where the ray passes behind the surface, found by binary search between bounds.x and bounds.y.
@@ -74,7 +85,7 @@ float refined(ScreenRay ray, vec2 bounds) {
   return bounds.y;
 }
 
-Hit trace(MirrorSurface s, ScreenRay ray) {
+Hit trace(MirrorSurface s, float away, ScreenRay ray) {
   float depth_m = view_depth(view, s.position);
   vec2 bounds = kHierarchical != 0u ? march_hierarchical(ray) : march_constant(ray, depth_m);
   bool met = ray.length_m > 0.0 && bounds.x < bounds.y;
@@ -88,7 +99,7 @@ Hit trace(MirrorSurface s, ScreenRay ray) {
   // The side of the surface that the ray meets must be the one that the camera sees.
   vec3 normal = unpack_normal(texelFetch(normal_image, pixel, 0).y);
   float faces = smoothstep(0.0, 0.1, -dot(normal, s.direction));
-  hit.confidence = confidence_at(s, at.xy, max(behind_m(ray, place), 0.0), hit.distance_m) * faces;
+  hit.confidence = confidence_at(s, away, at.xy, max(behind_m(ray, place), 0.0), hit.distance_m) * faces;
   if (!met) hit.confidence = 0.0;
   if (hit.confidence > 0.0) hit.light = light_along(pixel, s.direction);
   return hit;
@@ -96,7 +107,7 @@ Hit trace(MirrorSurface s, ScreenRay ray) {
 
 #ifdef GLOAM_BLENDED_LAYER
 // Lays the blended surfaces that the ray meets before `hit` over it. Blended surfaces have no side that they hide.
-Hit with_blended(MirrorSurface s, ScreenRay ray, Hit hit) {
+Hit with_blended(MirrorSurface s, float away, ScreenRay ray, Hit hit) {
   through_blended = true;
   vec2 bounds = march_constant(ray, view_depth(view, s.position));
   bool met = ray.length_m > 0.0 && bounds.x < bounds.y;
@@ -107,7 +118,7 @@ Hit with_blended(MirrorSurface s, ScreenRay ray, Hit hit) {
   float delta_m = max(behind_m(ray, place), 0.0);
   through_blended = false;
   float confidence = met && (hit.confidence == 0.0 || distance_m < hit.distance_m)
-                         ? confidence_at(s, at.xy, delta_m, distance_m)
+                         ? confidence_at(s, away, at.xy, delta_m, distance_m)
                          : 0.0;
   vec4 layer = texelFetch(blended_light, pixel, 0);
   float share = clamp(layer.a, 0.0, 1.0) * confidence, rest = (1.0 - share) * hit.confidence, all = share + rest;
@@ -126,11 +137,12 @@ void main() {
   if (!mirror_texel(texel)) return;
   MirrorSurface s = decode_mirror_surface(texelFetch(mirror_image, texel, 0).xy, texel);
   Hit hit = Hit(vec3(0.0), 0.0, 0.0, false);
-  if (s.share > 0.0) {
+  float away = away_from_camera(s);
+  if (s.share > 0.0 && GLOAM_FOLLOWED(away > 0.0)) {
     ScreenRay ray = screen_ray(s.position, s.direction);
-    hit = trace(s, ray);
+    hit = trace(s, away, ray);
 #ifdef GLOAM_BLENDED_LAYER
-    hit = with_blended(s, ray, hit);
+    hit = with_blended(s, away, ray, hit);
 #endif
   }
   imageStore(color_image, texel, vec4(hit.confidence > 0.0 ? hit.light : vec3(0.0), hit.confidence));

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "shaders/reflections_test/shaders.h"
 #include "tests/modules/reflections/support/trace_kernel.h"
 
 namespace gloam::test {
@@ -55,6 +56,42 @@ TEST_F(ScreenSpaceTrace, confidence_falls_to_nothing_where_rays_turn_toward_the_
       }
     EXPECT_GT(toward, 100u) << hierarchical;
     EXPECT_GT(away, 20u) << hierarchical;
+  }
+}
+
+TEST_F(ScreenSpaceTrace, rays_toward_the_camera_are_not_followed_and_no_texel_changes) {
+  // The camera looks down at a wall's foot: rays of the near floor turn toward it, those of the far floor do not.
+  SyntheticScene scene;
+  scene.boxes.push_back({{-5.0, 0.0, -1.0}, {5.0, 1.95, 0.0}});
+  ViewSettings settings = look_at({0.0, 3.0, 2.15}, {0.0, 0.0, 1.4}, 64, 64);
+  settings.camera.fov_y = 1.0f;
+  const SyntheticView seen = look(scene, settings);
+  const auto c = reflection_constants(seen.view, 1);
+  std::uint32_t mirrors = 0, toward = 0;
+  for (std::uint32_t y = 0; y < 64; ++y)
+    for (std::uint32_t x = 0; x < 64; ++x) {
+      if (!is_mirror(seen, {x, y})) continue;
+      ++mirrors;
+      toward += glm::dot(seen.mirrored(x, y), glm::normalize(-seen.position(x, y))) > 0.8501 ? 1 : 0;
+    }
+  ASSERT_GT(toward, mirrors / 4);
+  ASSERT_LT(toward, mirrors);
+  for (const std::uint32_t hierarchical : {0u, 1u}) {
+    const auto follow = [&](std::uint32_t all, std::uint32_t& rays) {
+      Kernel kernel(device(), shaders::reflections_test::counted_rays_comp,
+                    {{"kHierarchical", hierarchical}, {"kFollowAll", all}});
+      kernel.in_out(11, std::vector<std::uint32_t>{0});
+      Traced traced = run(kernel, seen, c, numbered(seen));
+      rays = kernel.read<std::uint32_t>(11)[0];
+      return traced;
+    };
+    std::uint32_t followed = 0, all = 0;
+    const Traced some = follow(0, followed), whole = follow(1, all);
+    EXPECT_EQ(all, mirrors);
+    EXPECT_LE(followed, mirrors - toward);
+    EXPECT_GT(followed, 0u);
+    EXPECT_GT(whole.hits(), 20u);
+    for (std::size_t i = 0; i < whole.color.size(); ++i) ASSERT_EQ(some.color[i], whole.color[i]) << i;
   }
 }
 

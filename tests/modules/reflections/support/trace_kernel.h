@@ -27,16 +27,25 @@ struct Traced {
 class TraceKernelTest : public KernelTest {
  protected:
   [[nodiscard]] Traced trace(const SyntheticView& seen, const shaders::ReflectionConstants& c, bool hierarchical) {
+    return trace(seen, c, hierarchical, numbered(seen));
+  }
+  /// A lit picture that says which pixel it is.
+  [[nodiscard]] static std::vector<vec4> numbered(const SyntheticView& seen) {
     std::vector<vec4> lit;
     for (std::uint32_t y = 0; y < seen.view.height; ++y)
       for (std::uint32_t x = 0; x < seen.view.width; ++x) lit.emplace_back(x + 1, y + 1, 0.0f, 0.0f);
-    return trace(seen, c, hierarchical, lit);
+    return lit;
   }
   [[nodiscard]] Traced trace(const SyntheticView& seen, const shaders::ReflectionConstants& c, bool hierarchical,
                              const std::vector<vec4>& lit) {
+    Kernel kernel(device(), shaders::reflections::screen_space_rays_comp, {{"kHierarchical", hierarchical ? 1u : 0u}});
+    return run(kernel, seen, c, lit);
+  }
+  /// Runs screen_space_rays.comp or a kernel that includes it.
+  [[nodiscard]] Traced run(Kernel& kernel, const SyntheticView& seen, const shaders::ReflectionConstants& c,
+                           const std::vector<vec4>& lit) {
     const std::uint32_t w = seen.view.width, h = seen.view.height;
     const FlatLayers no_probes(device(), 1, 1, {vec4(0.0f)});
-    Kernel kernel(device(), shaders::reflections::screen_space_rays_comp, {{"kHierarchical", hierarchical ? 1u : 0u}});
     kernel.input(0, std::vector{view_constants(seen.view)});
     kernel.input(1, std::vector{c});
     kernel.sampled_image(2, gpu::Format::rg32_uint, w, h, seen.normals);
