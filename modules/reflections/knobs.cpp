@@ -6,9 +6,9 @@ namespace gloam {
 
 void add_reflection_knobs(KnobRegistry& registry) {
   add_knobs(registry, "reflections", kReflectionMode, kReflectionTiers, kReflectionTemporal, kReflectionPixelRoughness,
-            kReflectionBlur, kReflectionLightScale, kSsrK1, kSsrK2, kSsrReach, kSsrRefine, kSsrFullResolution,
-            kSsrHierarchical, kProxyTiles, kProxyTileBound, kProxyLayers, kProxySphereTest, kNaiveProxyLoop,
-            kReflectionRecapture);
+            kReflectionBlur, kReflectionDilation, kReflectionBump, kReflectionPixelNormals, kReflectionLightScale,
+            kSsrK1, kSsrK2, kSsrReach, kSsrRefine, kSsrFullResolution, kSsrHierarchical, kProxyTiles, kProxyTileBound,
+            kProxyLayers, kProxySort, kProxySphereTest, kNaiveProxyLoop, kReflectionRecapture);
 }
 
 ReflectionKnobs reflection_knobs(const KnobRegistry& registry) {
@@ -22,6 +22,10 @@ ReflectionKnobs reflection_knobs(const KnobRegistry& registry) {
   knobs.temporal = registry.value(kReflectionTemporal);
   knobs.pixel_roughness = registry.value(kReflectionPixelRoughness);
   knobs.blur = registry.value(kReflectionBlur);
+  knobs.dilation = registry.value(kReflectionDilation);
+  knobs.bump = registry.value(kReflectionBump);
+  // The mirrored picture has no rays.
+  knobs.pixel_normals = registry.value(kReflectionPixelNormals) && knobs.mode != ReflectionKnobs::Mode::planar;
   knobs.light_scale = registry.value(kReflectionLightScale);
   knobs.k1 = static_cast<float>(registry.value(kSsrK1));
   knobs.k2 = static_cast<float>(registry.value(kSsrK2));
@@ -32,8 +36,10 @@ ReflectionKnobs reflection_knobs(const KnobRegistry& registry) {
   knobs.tiles.tiles = registry.value(kProxyTiles);
   knobs.tiles.bound = registry.value(kProxyTileBound);
   knobs.layers = registry.value(kProxyLayers);
+  knobs.sort = registry.value(kProxySort);
   knobs.sphere_test = registry.value(kProxySphereTest);
-  knobs.naive = registry.value(kNaiveProxyLoop);
+  // Tiles hold the proxies that rays mirrored at horizontal planes may meet.
+  knobs.naive = registry.value(kNaiveProxyLoop) || knobs.pixel_normals;
   knobs.recapture = registry.value(kReflectionRecapture);
   return knobs;
 }

@@ -37,6 +37,9 @@ struct ReflectionKnobs {
   bool temporal = false;
   bool pixel_roughness = true;
   bool blur = true;
+  bool dilation = true;
+  bool bump = true;
+  bool pixel_normals = false;  ///< of the rays of screen space and proxies; none is vertical then by rule
   bool light_scale = true;
   float k1 = 0.0f;
   float k2 = 0.0f;
@@ -46,12 +49,15 @@ struct ReflectionKnobs {
   bool hierarchical = false;
   ProxyTileSettings tiles;
   std::uint32_t layers = 4;
+  bool sort = true;
   bool sphere_test = true;
   bool naive = false;
   bool recapture = false;
 
   /// Whether reflection images are drawn, for either of the first two tiers.
   [[nodiscard]] bool mirror() const { return screen_space || proxies; }
+  /// Whether the composite bends its lookups by the normals of pixels: their rays have not followed these.
+  [[nodiscard]] bool bends() const { return bump && !pixel_normals; }
   [[nodiscard]] std::uint32_t scale() const { return full_resolution ? 1 : 2; }
 };
 
@@ -85,6 +91,25 @@ inline constexpr OnOffKnob kReflectionBlur{
     .name = "reflections.blur",
     .meaning = "whether reflections are blurred by the distance of what they show",
     .default_value = true,
+    .only_with = "reflections.mode=tiers|planar"};
+inline constexpr OnOffKnob kReflectionDilation{
+    .name = "reflections.dilation",
+    .meaning =
+        "whether blurred things have blurred silhouettes: the blur of a pixel is as wide as that of any pixel whose "
+        "blur reaches it",
+    .default_value = true,
+    .only_with = "reflections.blur=on"};
+inline constexpr OnOffKnob kReflectionBump{
+    .name = "reflections.bump",
+    .meaning = "whether the lookup of a pixel's reflection is bent by its normal, where rays have followed another one",
+    .default_value = true,
+    .only_with = "reflections.normal=up"};
+inline constexpr ChoiceKnob<bool> kReflectionPixelNormals{
+    .name = "reflections.normal",
+    .meaning =
+        "normal of surfaces for the rays of screen space and proxies: straight up, as in the paper (up), or that of "
+        "each pixel, which tests all proxies as ibr.loop=naive and needs no reflections.bump (pixel)",
+    .choices = {{"up", false}, {"pixel", true}},
     .only_with = "reflections.mode=tiers|planar"};
 inline constexpr OnOffKnob kReflectionLightScale{
     .name = "reflections.light_scale",
@@ -160,6 +185,13 @@ inline constexpr IntegerKnob<std::uint32_t> kProxyLayers{
     .default_value = 4,
     .unit = "layers",
     .ledger_values = {1, 2, 3, 4},
+    .only_with = "reflections.tiers=ibr+cube|all"};
+inline constexpr OnOffKnob kProxySort{
+    .name = "ibr.sort",
+    .meaning =
+        "whether layers along a reflected ray are sorted by distance (on), or blended in the order in which they are "
+        "tested, what screen space has met first (off)",
+    .default_value = true,
     .only_with = "reflections.tiers=ibr+cube|all"};
 inline constexpr OnOffKnob kProxySphereTest{
     .name = "ibr.sphere_test",

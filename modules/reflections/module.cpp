@@ -125,8 +125,9 @@ class ReflectionsModule final : public Module {
     std::vector<ReferenceInfo> references;
     for (const std::string_view knob :
          {kReflectionMode.name, kReflectionTiers.name, kReflectionPixelRoughness.name, kReflectionBlur.name,
-          kReflectionTemporal.name, kReflectionLightScale.name, kSsrK1.name, kSsrK2.name, kSsrReach.name,
-          kSsrRefine.name, kSsrFullResolution.name, kSsrHierarchical.name, kProxyLayers.name,
+          kReflectionDilation.name, kReflectionBump.name, kReflectionPixelNormals.name, kReflectionTemporal.name,
+          kReflectionLightScale.name, kSsrK1.name, kSsrK2.name, kSsrReach.name, kSsrRefine.name,
+          kSsrFullResolution.name, kSsrHierarchical.name, kProxyLayers.name, kProxySort.name,
           kReflectionRecapture.name})
       references.push_back(traced_reflections(std::string(knob), false, &traced_extras));
     return references;

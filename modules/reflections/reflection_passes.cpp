@@ -141,8 +141,8 @@ void add_mirror_passes(FrameBuilder& frame, Staging& staging, const ReflectionPl
   MirroredLight light = plan.planar ? add_planar_pass(frame, knobs, uniforms, surfaces, *plan.planar)
                                     : add_proxy_pass(frame, knobs, uniforms, surfaces, hits, proxies);
   if (knobs.temporal) light = add_temporal_pass(frame, uniforms, surfaces.tiles, light, knobs, captures.version);
-  if (knobs.blur) light = add_glossy_passes(frame, uniforms, surfaces.tiles, light);
-  add_composite_pass(frame, uniforms, surfaces, hits, light);
+  if (knobs.blur) light = add_glossy_passes(frame, uniforms, surfaces.tiles, light, knobs.dilation);
+  add_composite_pass(frame, uniforms, surfaces, hits, light, knobs.bends());
   frame.put(ReflectionHandles{uniforms, hits, light, surfaces.tiles.image});
 }
 
@@ -247,11 +247,12 @@ void list_reflection_pipelines(const ReflectionKnobs& knobs, bool direct, bool b
   if (knobs.temporal) add(temporal_program());
   if (knobs.blur)
     for (const bool columns : {false, true}) {
-      add(dilate_program(columns, direct));
+      if (knobs.dilation) add(dilate_program(columns, direct));
       add(blur_program(columns, direct));
     }
-  for (const bool bumpy : {false, true})
-    add(composite_program(knobs.screen_space, bumpy, knobs.temporal && knobs.scale() > 1));
+  const bool centered = knobs.temporal && knobs.scale() > 1;
+  add(composite_program(knobs.screen_space, false, centered));
+  if (knobs.bends()) add(composite_program(knobs.screen_space, true, centered));
 }
 
 }  // namespace gloam

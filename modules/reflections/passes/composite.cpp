@@ -18,7 +18,7 @@ ComputeProgram composite_program(bool screen_space, bool bumpy, bool centered) {
 }
 
 void add_composite_pass(FrameBuilder& frame, const ReflectionUniforms& uniforms, const MirrorSurfaces& surfaces,
-                        const ScreenSpaceHits& hits, const MirroredLight& light) {
+                        const ScreenSpaceHits& hits, const MirroredLight& light, bool bends) {
   const bool screen_space = static_cast<bool>(hits.color);
   const bool centered = uniforms.constants.centered != 0;
   ComputePass pass(frame, "reflection_composite", composite_program(screen_space, false, centered));
@@ -33,7 +33,7 @@ void add_composite_pass(FrameBuilder& frame, const ReflectionUniforms& uniforms,
   LitOutput& lit = frame.get<LitOutput>();
   lit.color = pass.write("lit_image", lit.color);
   dispatch_mirror_tiles(pass, surfaces.tiles, GLOAM_LIST_FLAT);
-  pass.use(composite_program(screen_space, true, centered));
+  if (bends) pass.use(composite_program(screen_space, true, centered));
   dispatch_mirror_tiles(pass, surfaces.tiles, GLOAM_LIST_BUMPY);
 }
 

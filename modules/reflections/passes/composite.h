@@ -12,9 +12,9 @@ namespace gloam {
 [[nodiscard]] ComputeProgram composite_program(bool screen_space, bool bumpy, bool centered);
 
 /// Adds the mirrored images to LitOutput, in the tiles that hold a mirror surface: upscaled, with bent lookup, sharp
-/// hits and fog.
+/// hits and fog. bends: whether lookups follow the normals of pixels (ReflectionKnobs::bends()).
 void add_composite_pass(FrameBuilder& frame, const ReflectionUniforms& uniforms, const MirrorSurfaces& surfaces,
-                        const ScreenSpaceHits& hits, const MirroredLight& light);
+                        const ScreenSpaceHits& hits, const MirroredLight& light, bool bends);
 
 /// Adds traced reflections to LitOutput, which lacks its specular ambient term. traced: rgba32f, of the view's size.
 void add_traced_light_pass(FrameBuilder& frame, ImageRef traced);

@@ -73,9 +73,11 @@ ComputeProgram blur_program(bool columns, bool direct) {
 }
 
 MirroredLight add_glossy_passes(FrameBuilder& frame, const ReflectionUniforms& uniforms, const MirrorTiles& tiles,
-                                const MirroredLight& light) {
-  const ImageRef in_rows = add_dilation(frame, uniforms, tiles, light.surface, light.surface, false);
-  const ImageRef dilated = add_dilation(frame, uniforms, tiles, light.surface, in_rows, true);
+                                const MirroredLight& light, bool dilate) {
+  ImageRef dilated = light.surface;
+  if (dilate)
+    for (const bool columns : {false, true})
+      dilated = add_dilation(frame, uniforms, tiles, light.surface, dilated, columns);
   const MirroredLight in_columns = add_blur(frame, uniforms, tiles, light, dilated, true);
   return add_blur(frame, uniforms, tiles, in_columns, dilated, false);
 }

@@ -11,8 +11,8 @@ namespace gloam {
 [[nodiscard]] ComputeProgram dilate_program(bool columns, bool direct);
 [[nodiscard]] ComputeProgram blur_program(bool columns, bool direct);
 
-/// The light, blurred by the dilated spread of its surface.
+/// The light, blurred by the spread of its surface, dilated or as it is.
 [[nodiscard]] MirroredLight add_glossy_passes(FrameBuilder& frame, const ReflectionUniforms& uniforms,
-                                              const MirrorTiles& tiles, const MirroredLight& light);
+                                              const MirrorTiles& tiles, const MirroredLight& light, bool dilate);
 
 }  // namespace gloam

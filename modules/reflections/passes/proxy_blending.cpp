@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "modules/reflections/passes/proxy_blending.h"
 
+#include "modules/lighting/outputs.h"
 #include "modules/reflections/bindings.h"
 #include "modules/reflections/passes/mirror_surfaces.h"
 #include "shaders/reflections/shaders.h"
@@ -16,7 +17,9 @@ ComputeProgram proxy_program(const ReflectionKnobs& knobs, bool factors) {
            {"kSphereTest", knobs.sphere_test ? 1u : 0u},
            {"kNaive", knobs.naive ? 1u : 0u},
            {"kPixelRoughness", knobs.pixel_roughness ? 1u : 0u},
-           {"kFactors", factors ? 1u : 0u}}};
+           {"kFactors", factors ? 1u : 0u},
+           {"kSort", knobs.sort ? 1u : 0u},
+           {"kPixelNormals", knobs.pixel_normals ? 1u : 0u}}};
 }
 
 MirroredLight add_proxy_pass(FrameBuilder& frame, const ReflectionKnobs& knobs, const ReflectionUniforms& uniforms,
@@ -24,6 +27,7 @@ MirroredLight add_proxy_pass(FrameBuilder& frame, const ReflectionKnobs& knobs, 
   ComputePass pass(frame, "reflection_proxies", proxy_program(knobs, !proxies.factors.empty()));
   pass.read("reflection", uniforms.block);
   pass.read("tiles", uniforms.tiles);
+  read_geometry(pass, frame.get<GeometryOutputs>());
   pass.read("ssr_color", hits.color);
   pass.read("ssr_distance", hits.distance);
   bind_rows(pass, "proxy_rows", proxies.rows);

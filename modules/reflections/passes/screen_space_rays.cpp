@@ -11,7 +11,7 @@ namespace gloam {
 ComputeProgram screen_space_program(const ReflectionKnobs& knobs, bool blended, const gpu::SpecConstants& probes) {
   ComputeProgram program{
       blended ? shaders::reflections::screen_space_rays_blended_comp : shaders::reflections::screen_space_rays_comp,
-      {{"kHierarchical", knobs.hierarchical ? 1u : 0u}}};
+      {{"kHierarchical", knobs.hierarchical ? 1u : 0u}, {"kPixelNormals", knobs.pixel_normals ? 1u : 0u}}};
   program.constants.set(probes);
   return program;
 }

@@ -15,7 +15,10 @@ layout(constant_id = 2) const uint kLayers = 4u;       // entries of the sorted 
 layout(constant_id = 3) const uint kSphereTest = 1u;
 layout(constant_id = 4) const uint kNaive = 0u;           // 1: every proxy of the world for every pixel, without tiles
 layout(constant_id = 5) const uint kPixelRoughness = 1u;  // 0: one spread for all surfaces, as in the paper
-layout(constant_id = 6) const uint kFactors = 1u;         // 0: all lamps are as captured, no row has factors
+layout(constant_id = 8) const uint kFactors = 1u;         // 0: all lamps are as captured, no row has factors
+
+layout(constant_id = 6) const uint kSort = 1u;          // 0: layers stay in the order in which they are inserted
+layout(constant_id = 7) const uint kPixelNormals = 0u;  // 1: rays follow the normals of pixels
 
 layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
 layout(set = 0, binding = 1, scalar) uniform Reflection { ReflectionConstants reflection; };
@@ -26,12 +29,14 @@ layout(set = 0, binding = 7, scalar) readonly buffer ProxyRows { ProxyRow proxy_
 layout(set = 0, binding = 8, scalar) readonly buffer ProxyMasks { uint proxy_masks[]; };
 layout(set = 0, binding = 9) uniform sampler2DArray proxy_images;
 layout(set = 0, binding = 10, scalar) readonly buffer CaptureFactors { vec4 capture_factors[]; };
+layout(set = 0, binding = 11) uniform usampler2D normal_image;
 layout(set = 0, binding = 12, scalar) uniform Tiles { ProxyTileConstants tiles; };
 layout(set = 0, binding = 13, rgba16f) uniform writeonly image2D color_image;  // premultiplied radiance, confidence
 layout(set = 0, binding = 14, rgba8) uniform writeonly image2D surface_image;  // spread, roughness, packed distance
 
 #define GLOAM_MIRROR_TILES 3
 #include "shaders/reflections/mirror_surface_api.glsl"
+#include "shaders/reflections/passes/pixel_normal.glsl"
 #include "shaders/lighting/changed_light_api.glsl"
 #include "shaders/reflections/proxies/proxies_api.glsl"
 #include "shaders/reflections/spread_api.glsl"
@@ -47,10 +52,11 @@ struct Layer {
 };
 Layer layers[4];
 
-// Inserts a layer; the farthest one is dropped when the array is full.
+// Inserts a layer; the farthest one, or without sorting the last one, is dropped when the array is full.
 void insert(Layer layer) {
   for (uint i = 0u; i < kLayers; ++i) {
     bool nearer = layer.order_m < layers[i].order_m;
+    if (kSort == 0u) nearer = layers[i].order_m == kFar;
     Layer moved = layers[i];
     if (nearer) layers[i] = layer;
     if (nearer) layer = moved;
@@ -102,6 +108,7 @@ void main() {
   MirrorSurface s = decode_mirror_surface(texelFetch(mirror_image, texel, 0).xy, texel);
   vec4 color = vec4(0.0), surface = vec4(0.0);
   if (s.share > 0.0) {
+    if (kPixelNormals != 0u) follow_normal(s);
     for (uint i = 0u; i < 4u; ++i) layers[i] = Layer(kFar, 0.0, vec4(0.0));
     if (kScreenSpace != 0u) {
       vec4 ssr = texelFetch(ssr_color, texel, 0);

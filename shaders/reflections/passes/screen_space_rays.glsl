@@ -13,6 +13,7 @@
 // second time, through BlendedLayer, and what it meets there is laid over what it meets behind that.
 
 layout(constant_id = 0) const uint kHierarchical = 0u;
+layout(constant_id = 1) const uint kPixelNormals = 0u;  // 1: rays follow the normals of pixels
 
 #define GLOAM_MOST_STEPS 96u
 
@@ -37,6 +38,7 @@ layout(set = 0, binding = 13) uniform sampler2D blended_depth;
 
 #define GLOAM_MIRROR_TILES 9
 #include "shaders/reflections/mirror_surface_api.glsl"
+#include "shaders/reflections/passes/pixel_normal.glsl"
 #include "shaders/reflections/passes/screen_space_march.glsl"
 #define GLOAM_LIT_AT(pixel) texelFetch(lit_image, pixel, 0).rgb
 #define GLOAM_SURROUNDINGS_BINDING 24
@@ -137,6 +139,7 @@ void main() {
   if (!mirror_texel(texel)) return;
   MirrorSurface s = decode_mirror_surface(texelFetch(mirror_image, texel, 0).xy, texel);
   Hit hit = Hit(vec3(0.0), 0.0, 0.0, false);
+  if (kPixelNormals != 0u) follow_normal(s);
   float away = away_from_camera(s);
   if (s.share > 0.0 && GLOAM_FOLLOWED(away > 0.0)) {
     ScreenRay ray = screen_ray(s.position, s.direction);

@@ -61,7 +61,12 @@ TEST_F(ReflectionFrames, in_a_white_surrounding_the_weights_of_all_tiers_sum_to_
                                                                     {"ibr.layers", "1"},
                                                                     {"ibr.layers", "2"},
                                                                     {"ibr.layers", "3"},
+                                                                    {"ibr.sort", "off"},
                                                                     {"ssr.resolution", "full"},
+                                                                    {"reflections.normal", "pixel"},
+                                                                    {"reflections.normal", "up"},
+                                                                    {"reflections.bump", "off"},
+                                                                    {"reflections.dilation", "off"},
                                                                     {"reflections.blur", "off"},
                                                                     {"reflections.roughness", "constant"}};
   set("reflections.mode", "off");
@@ -310,8 +315,11 @@ TEST_F(ReflectionFrames, any_camera_and_any_knobs_give_numbers) {
   cameras.push_back(usual);
   cameras.back().camera.orthographic = true;
   cameras.back().camera.half_height_m = 2.0f;
-  for (const auto& [knob, value] : std::vector<std::pair<const char*, const char*>>{
-           {"ssr.march", "hierarchical"}, {"ssr.march", "constant"}, {"reflections.roughness", "constant"}}) {
+  for (const auto& [knob, value] :
+       std::vector<std::pair<const char*, const char*>>{{"ssr.march", "hierarchical"},
+                                                        {"ssr.march", "constant"},
+                                                        {"reflections.normal", "pixel"},
+                                                        {"reflections.roughness", "constant"}}) {
     set(knob, value);
     for (const ViewSettings& camera : cameras) {
       settings = camera;

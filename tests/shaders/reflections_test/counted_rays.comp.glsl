@@ -5,7 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 // screen_space_rays.comp, which counts the rays that it follows.
-layout(constant_id = 1) const uint kFollowAll = 0u;  // 1: no ray is left out
+layout(constant_id = 2) const uint kFollowAll = 0u;  // 1: no ray is left out
 
 layout(set = 0, binding = 11, scalar) buffer Count { uint followed_rays; };
 

@@ -20,6 +20,8 @@ struct BlendInput {
   std::uint32_t layers = 4;
   bool sphere_test = true;
   bool naive = false;
+  bool sort = true;
+  bool pixel_normals = false;
   std::vector<vec4> ssr_color;         ///< by texel: radiance, confidence
   std::vector<float> ssr_distance_m;   ///< by texel
   std::vector<CaptureFactor> factors;  ///< by layer
@@ -55,7 +57,9 @@ struct Blended {
                  {"kLayers", in.layers},
                  {"kSphereTest", in.sphere_test ? 1u : 0u},
                  {"kNaive", in.naive ? 1u : 0u},
-                 {"kPixelRoughness", c.pixel_roughness}});
+                 {"kPixelRoughness", c.pixel_roughness},
+                 {"kSort", in.sort ? 1u : 0u},
+                 {"kPixelNormals", in.pixel_normals ? 1u : 0u}});
   kernel.input(0, std::vector{view_constants(in.seen.view)});
   kernel.input(1, std::vector{c});
   kernel.sampled_image(2, gpu::Format::rg32_uint, c.size.x, c.size.y, find_mirrors(device, in.seen, c));
@@ -74,6 +78,7 @@ struct Blended {
   kernel.input(8, tiles.masks.empty() ? std::vector<std::uint32_t>{0} : tiles.masks);
   kernel.sampled_image(9, images.image(), gpu::Filter::linear);
   kernel.input(10, in.cells.empty() ? std::vector<vec4>(1) : in.cells);
+  kernel.sampled_image(11, gpu::Format::rg32_uint, in.seen.view.width, in.seen.view.height, in.seen.normals);
   kernel.input(12, std::vector{shaders::ProxyTileConstants{tiles.tiles, tiles.words_per_tile, count, 0}});
   kernel.output_image(13, gpu::Format::rgba16_float, c.size.x, c.size.y);
   kernel.output_image(14, gpu::Format::rgba8_unorm, c.size.x, c.size.y);
