@@ -139,7 +139,9 @@ std::vector<CommandApp> add_commands(CLI::App& root, Options& options, RawTexts&
     commands.push_back({command, app});
     return app;
   };
-  CLI::App* play = add(Command::play, "play", "Open a window");
+  CLI::App* play = add(Command::play, "play",
+                       "Open a window. Sets lighting.antialiasing=smaa, views.range=fit and "
+                       "reflections.recapture=budget; --config and --set override them");
   play->add_option("SCENE", options.scene, kSceneText);
   play->add_option("--scale", raw.scale,
                    "Share of the window's width and height that is drawn: auto (default; 1 with --stats or --trace) "

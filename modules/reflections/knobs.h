@@ -7,6 +7,7 @@
 
 #include "engine/render/knobs/knob_table.h"
 #include "modules/reflections/culling/tiles.h"
+#include "modules/reflections/module.h"
 
 namespace gloam {
 
@@ -206,14 +207,6 @@ inline constexpr ChoiceKnob<bool> kNaiveProxyLoop{
     .exact = true,
     .same_picture = true,
     .only_with = "reflections.tiers=ibr+cube|all"};
-
-inline constexpr ChoiceKnob<bool> kReflectionRecapture{
-    .name = "reflections.recapture",
-    .meaning =
-        "whether outdated captures in view are drawn again when lights have changed: never (off), or the most wrong "
-        "ones, a proxy or a face of a probe each frame (budget)",
-    .choices = {{"off", false}, {"budget", true}},
-    .only_with = "reflections.mode=tiers|planar"};
 
 void add_reflection_knobs(KnobRegistry& registry);
 [[nodiscard]] ReflectionKnobs reflection_knobs(const KnobRegistry& registry);

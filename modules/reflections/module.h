@@ -13,11 +13,21 @@
 #include "engine/ecs/world.h"
 #include "engine/jobs/executor.h"
 #include "engine/math/types.h"
+#include "engine/render/knobs/knob_table.h"
 #include "engine/render/module.h"
 
 namespace gloam {
 
 [[nodiscard]] std::unique_ptr<Module> make_reflections_module();
+
+/// For hosts that show lamps that change over many frames. A picture then depends on the frames before it.
+inline constexpr ChoiceKnob<bool> kReflectionRecapture{
+    .name = "reflections.recapture",
+    .meaning =
+        "whether outdated captures in view are drawn again when lights have changed: never (off), or the most wrong "
+        "ones, a proxy or a face of a probe each frame (budget); play sets budget",
+    .choices = {{"off", false}, {"budget", true}},
+    .only_with = "reflections.mode=tiers|planar"};
 
 /// Writes, for each ray, the distance in metres to the nearest surface; infinity where there is none. origins: world
 /// positions. directions: unit length. All spans have the same length.

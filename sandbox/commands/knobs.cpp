@@ -70,7 +70,8 @@ std::string markdown_of(const KnobRegistry& registry) {
       "FILE`, a host with `Renderer::knobs().set(…)` and, for one view, `ViewSettings::knobs`. *Exact* is the value "
       "that\n"
       "`gloam cost` compares the other values with. `gloam play` and `gloam render` set "
-      "`lighting.antialiasing=smaa`.\n\n"
+      "`lighting.antialiasing=smaa`,\n"
+      "and `gloam play` sets `views.range=fit` and `reflections.recapture=budget`.\n\n"
       "This page is the output of `gloam knobs --markdown`; the tests compare it.\n";
   std::string module;
   for (const Knob& knob : registry.knobs()) {

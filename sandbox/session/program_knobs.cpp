@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "modules/lighting/outputs.h"
+#include "modules/reflections/module.h"
 #include "sandbox/output/file_io.h"
 
 namespace gloam {
@@ -43,7 +44,11 @@ Status set_knobs(KnobRegistry& knobs, const Options& options) {
   // Pictures for users are antialiased. Measurements compare pictures as they were drawn.
   if (options.command == Command::play || options.command == Command::render)
     knobs.set(kAntialiasing, Antialiasing::smaa);
-  if (options.command == Command::play) knobs.set(kHeatRange, kFitHeatRange);
+  if (options.command == Command::play) {
+    knobs.set(kHeatRange, kFitHeatRange);
+    // Pictures of render do not depend on the frames before them; a window follows its lamps.
+    knobs.set(kReflectionRecapture, true);
+  }
   if (!options.config.empty()) {
     const auto text = read_text_file(options.config, ErrorKind::usage);
     if (!text) return text.error();

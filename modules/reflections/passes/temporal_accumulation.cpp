@@ -19,7 +19,7 @@ std::uint64_t light_key(const RenderView& view, const ReflectionKnobs& knobs, st
        {bits(view.light_scale), bits(knobs.k1), bits(knobs.k2), bits(knobs.reach_m), captures,
         std::uint64_t{knobs.refine}, std::uint64_t{knobs.layers}, static_cast<std::uint64_t>(knobs.mode),
         std::uint64_t{knobs.screen_space}, std::uint64_t{knobs.proxies}, std::uint64_t{knobs.light_scale},
-        std::uint64_t{knobs.hierarchical}})
+        std::uint64_t{knobs.hierarchical}, std::uint64_t{knobs.sort}, std::uint64_t{knobs.pixel_normals}})
     key = (std::rotl(key, 29) ^ value) * 0x9E3779B97F4A7C15u;
   return key;
 }
