@@ -46,9 +46,10 @@ constexpr std::uint32_t kReachShareOfAll = 8;  // the same with one roughness fo
 constexpr float kLeastAcross = 0.1f;           // narrowest blur along rows, per pixel roughness
 constexpr float kAcross = 0.5f;                // the same with one roughness for all
 
-/// Side of a texel of the reflection images at view depth 1 m (orthographic: everywhere), metres.
+/// Side of a texel of the reflection images at view depth 1. Orthographic: as a share of the picture's height.
 float texel_size(const RenderView& view, std::uint32_t scale) {
-  return 2.0f / (std::abs(view.clip_from_view[1][1]) * static_cast<float>(view.height)) * static_cast<float>(scale);
+  const float high = view.camera.orthographic ? 1.0f : 2.0f / std::abs(view.clip_from_view[1][1]);
+  return high * static_cast<float>(scale) / static_cast<float>(view.height);
 }
 
 shaders::ReflectionConstants constants_of(const RenderView& view, const ReflectionKnobs& knobs, float unit_m) {

@@ -17,10 +17,12 @@ float screen_distance(MirrorSurface s, float distance_m) {
 }
 
 // How far behind the mirror the reflected point appears, as a share of its distance from the eye. A lobe of a given
-// angle covers an angle in the picture that is proportional to it.
+// angle covers an angle in the picture that is proportional to it. Orthographic: as a share of the picture's height,
+// because the lobe covers a length that is proportional to the distance alone.
 float mirrored_share(MirrorSurface s, float distance_m) {
-  float eye_m = view.orthographic != 0u ? view_depth(view, s.position) : length(s.position);
-  return clamp(distance_m / max(distance_m + eye_m, 1e-30), 0.0, 1.0);
+  float whole_m = distance_m + length(s.position);
+  if (view.orthographic != 0u) whole_m = length(view.ray_dy.xyz) * float(view.size.y);
+  return clamp(distance_m / max(whole_m, 1e-30), 0.0, 1.0);
 }
 
 #endif

@@ -68,9 +68,9 @@ ivec2 block_offset(uint i) { return ivec2(i & 1u, i >> 1); }
 bool pixel_of_hit(vec3 origin, vec3 ray, float length_m, out ivec2 pixel) {
   vec3 hit = origin + ray * length_m;
   vec4 clip = view.clip_from_relative * vec4(hit, 1.0);
-  vec2 at = (0.5 + clip.xy / max(clip.w, 1e-6) * vec2(0.5, -0.5)) * vec2(view.size);
-  bool inside =
-      clip.w > view.near_m * 0.5 && all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, vec2(view.size)));
+  vec2 at = (0.5 + clip.xy / (clip.w > 0.0 ? clip.w : 1.0) * vec2(0.5, -0.5)) * vec2(view.size);
+  bool inside = (view.orthographic != 0u || clip.w > view.near_m * 0.5) && all(greaterThanEqual(at, vec2(0.0))) &&
+                all(lessThan(at, vec2(view.size)));
   pixel = clamp(ivec2(at), ivec2(0), ivec2(view.size) - 1);
   float seen = texelFetch(depth_image, pixel, 0).r;
   float apart_m = abs(surface_view_depth(view, max(seen, 1e-30)) - view_depth(view, hit));

@@ -52,7 +52,7 @@ float distance_at(vec2 uv, MirrorSurface s) {
   ivec2 size = textureSize(mirrored_depth, 0);
   float depth = texelFetch(mirrored_depth, clamp(ivec2(uv * vec2(size)), ivec2(0), size - 1), 0).r;
   float surface_m = view_depth(view, s.position), behind_m = surface_view_depth(view, max(depth, 1e-30)) - surface_m;
-  float per_depth = view.orthographic != 0u ? 1.0 : length(s.position) / max(surface_m, 1e-6);
+  float per_depth = view.orthographic != 0u ? 1.0 : length(s.position) / max(surface_m, view.near_m);
   return depth > 0.0 ? max(behind_m, 0.0) * per_depth : kMostHitCentimetres * 0.01 * reflection.unit_m;
 }
 

@@ -62,7 +62,7 @@ ColorRange color_range(ivec2 texel) {
 vec2 mirrored_motion(MirrorSurface s, float distance_m) {
   vec3 seen = vec3(s.direction.x, -s.direction.y, s.direction.z);
   vec3 clip = previous_clip_at_rest(motion, s.position + seen * distance_m);
-  vec2 at = (0.5 + clip.xy / max(clip.z, 1e-6) * vec2(0.5, -0.5)) * vec2(view.size) - 0.5;
+  vec2 at = (0.5 + clip.xy / (clip.z > 0.0 ? clip.z : 1.0) * vec2(0.5, -0.5)) * vec2(view.size) - 0.5;
   return clip.z > 0.0 ? at - vec2(s.pixel) : vec2(-1e6);
 }
 

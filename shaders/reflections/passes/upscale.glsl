@@ -133,7 +133,7 @@ vec2 bent_pixel(vec2 pixel, vec3 position, vec3 normal, float distance_m) {
   vec3 ray = reflect(-normalize(to_viewer(view, position)), normal);
   vec3 image = position + vec3(ray.x, -ray.y, ray.z) * distance_m;
   vec4 clip = view.clip_from_relative * vec4(image, 1.0);
-  vec2 at = (0.5 + clip.xy / max(clip.w, 1e-6) * vec2(0.5, -0.5)) * vec2(view.size) - 0.5;
+  vec2 at = (0.5 + clip.xy / (clip.w > 0.0 ? clip.w : 1.0) * vec2(0.5, -0.5)) * vec2(view.size) - 0.5;
   return clip.w > view.near_m || view.orthographic != 0u ? at : pixel;
 }
 

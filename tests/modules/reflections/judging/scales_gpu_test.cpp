@@ -69,6 +69,9 @@ class SceneScales : public JudgedReflections {
     ViewSettings view = look_at(scale * dvec3(0.3, 1.4, 4.0), scale * dvec3(0.0, -0.6, 0.0), 240, 136);
     view.world_from_camera[3] = dvec4(place + scale * dvec3(0.3, 1.4, 4.0), 1.0);
     view.camera.near_m = static_cast<float>(0.05 * scale);
+    view.camera.orthographic = orthographic;
+    if (orthographic) view.camera.far_m = static_cast<float>(50.0 * scale);  // its depth is linear
+    view.camera.half_height_m = static_cast<float>(1.5 * scale);
     view.id = ViewId{++views};
     Drawn result;
     for (int i = 0; i < 3; ++i) draw(fresh, view);
@@ -100,6 +103,7 @@ class SceneScales : public JudgedReflections {
     EXPECT_LT(difference, kMostMean) << tiers;
   }
 
+  bool orthographic = false;
   std::uint32_t views = 0;
 };
 
@@ -109,6 +113,10 @@ TEST_F(SceneScales, a_hundredth_with_its_unit_stated) {
 }
 TEST_F(SceneScales, a_hundred_times_with_its_unit_stated) {
   for (const char* tiers : {"ssr+cube", "ibr+cube", "all"}) judge(100.0, dvec3(0.0), tiers, true);
+}
+TEST_F(SceneScales, an_orthographic_camera_at_a_hundredth_and_a_hundred_times) {
+  orthographic = true;
+  for (const double scale : {0.01, 100.0}) judge(scale, dvec3(0.0), "all", true);
 }
 TEST_F(SceneScales, five_kilometres_away) {
   for (const char* tiers : {"ssr+cube", "ibr+cube", "all"}) judge(1.0, dvec3(3000.0, 16.0, -4000.0), tiers, false);

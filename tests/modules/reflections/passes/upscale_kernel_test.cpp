@@ -25,12 +25,15 @@ struct TexelReflection {
 class Upscale : public KernelTest {
  protected:
   void look_at_floor(std::uint32_t width = 64, std::uint32_t height = 48) {
-    seen = look({}, look_at({0.0, 1.5, 4.0}, {0.0, 0.0, 0.0}, width, height));
+    ViewSettings settings = look_at(unit * dvec3(0.0, 1.5, 4.0), dvec3(0.0), width, height);
+    settings.camera.near_m *= static_cast<float>(unit);
+    seen = look({}, settings);
   }
   /// reflection_of(texel): the reflection images' content.
   [[nodiscard]] std::vector<vec4> upscale(std::uint32_t scale,
                                           const std::function<TexelReflection(uvec2)>& reflection_of) {
     c = reflection_constants(seen.view, scale);
+    c.unit_m = static_cast<float>(unit);
     std::vector<vec4> color;
     std::vector<ByteTexel> surface;
     std::vector<uvec2> mirrors;  // mirror_surface_api.glsl: depth; share, and the first pixel of the block
@@ -59,18 +62,44 @@ class Upscale : public KernelTest {
     for (std::size_t i = 0; i < seen.normals.size(); ++i)
       if (seen.object[i] == 0) seen.normals[i].x = pack_normal_snorm16(vec3(glm::normalize(normal)));
   }
-  /// Where the pixel's ray, mirrored at this normal, meets a wall 3 m behind the middle of the floor.
+  /// Where the pixel's ray, mirrored at this normal, meets a wall 3 m behind the middle of the floor. In metres.
   struct WallHit {
     dvec3 at = dvec3(0.0);
     double distance_m = 0.0;
   };
   [[nodiscard]] WallHit wall(uvec2 pixel, const dvec3& normal) const {
-    const dvec3 from = seen.position(pixel.x, pixel.y) + seen.view.position;
+    const dvec3 from = (seen.position(pixel.x, pixel.y) + seen.view.position) / unit;
     const dvec3 ray = glm::reflect(glm::normalize(seen.ray(pixel.x, pixel.y).direction), glm::normalize(normal));
     const double along = (-3.0 - from.z) / ray.z;
     return {from + ray * along, along};
   }
 
+  /// Compares what tilted normals show with rays to the wall.
+  void expect_own_rays(const dvec3& normal) {
+    look_at_floor(128, 96);
+    tilt(normal);
+    const std::vector<vec4> lights = upscale(1, [&](uvec2 t) {
+      const WallHit hit = wall(t, dvec3(0.0, 1.0, 0.0));
+      const bool floor = seen.object[seen.at(t.x, t.y)] == 0 && hit.distance_m > 0.0;
+      return TexelReflection{vec4(hit.at.x + 10.0, hit.at.y, 0.0, 1.0), std::clamp(hit.distance_m, 0.0, 600.0), floor};
+    });
+    std::size_t compared = 0;
+    double bent = 0.0, straight = 0.0;
+    for (std::uint32_t y = 40; y < 88; ++y)
+      for (std::uint32_t x = 16; x < 112; ++x) {
+        if (seen.object[seen.at(x, y)] != 0) continue;
+        const WallHit want = wall({x, y}, normal), flat = wall({x, y}, dvec3(0.0, 1.0, 0.0));
+        if (want.distance_m <= 0.0 || want.at.y < 0.0 || flat.distance_m < 0.5) continue;
+        const dvec2 got(lights[seen.at(x, y)].x - 10.0f, lights[seen.at(x, y)].y);
+        bent += glm::length(got - dvec2(want.at));
+        straight += glm::length(dvec2(flat.at) - dvec2(want.at));
+        ++compared;
+      }
+    EXPECT_GT(compared, 1500u);
+    EXPECT_LT(bent, 0.15 * straight) << normal.x << ", " << normal.z << ", a metre is " << unit;
+  }
+
+  double unit = 1.0;  ///< a metre in units of the scene
   SyntheticView seen;
   shaders::ReflectionConstants c{.unit_m = 1.0f};
 };
@@ -125,28 +154,14 @@ TEST_F(Upscale, where_nothing_reflects_there_is_no_confidence) {
 
 TEST_F(Upscale, a_tilted_normal_shows_what_its_own_ray_meets) {
   for (const dvec3& normal :
-       {dvec3(0.04, 1.0, 0.0), dvec3(-0.06, 1.0, 0.02), dvec3(0.0, 1.0, 0.05), dvec3(0.0, 1.0, -0.04)}) {
-    look_at_floor(128, 96);
-    tilt(normal);
-    const std::vector<vec4> lights = upscale(1, [&](uvec2 t) {
-      const WallHit hit = wall(t, dvec3(0.0, 1.0, 0.0));
-      const bool floor = seen.object[seen.at(t.x, t.y)] == 0 && hit.distance_m > 0.0;
-      return TexelReflection{vec4(hit.at.x + 10.0, hit.at.y, 0.0, 1.0), std::clamp(hit.distance_m, 0.0, 600.0), floor};
-    });
-    std::size_t compared = 0;
-    double bent = 0.0, straight = 0.0;
-    for (std::uint32_t y = 40; y < 88; ++y)
-      for (std::uint32_t x = 16; x < 112; ++x) {
-        if (seen.object[seen.at(x, y)] != 0) continue;
-        const WallHit want = wall({x, y}, normal), flat = wall({x, y}, dvec3(0.0, 1.0, 0.0));
-        if (want.distance_m <= 0.0 || want.at.y < 0.0 || flat.distance_m < 0.5) continue;
-        const dvec2 got(lights[seen.at(x, y)].x - 10.0f, lights[seen.at(x, y)].y);
-        bent += glm::length(got - dvec2(want.at));
-        straight += glm::length(dvec2(flat.at) - dvec2(want.at));
-        ++compared;
-      }
-    EXPECT_GT(compared, 1500u);
-    EXPECT_LT(bent, 0.15 * straight) << normal.x << ", " << normal.z;
+       {dvec3(0.04, 1.0, 0.0), dvec3(-0.06, 1.0, 0.02), dvec3(0.0, 1.0, 0.05), dvec3(0.0, 1.0, -0.04)})
+    expect_own_rays(normal);
+}
+
+TEST_F(Upscale, a_tilted_normal_shows_what_its_own_ray_meets_in_a_scene_of_any_size) {
+  for (const double metre : {1e-7, 1e-3, 1e4}) {
+    unit = metre;
+    expect_own_rays({-0.06, 1.0, 0.02});
   }
 }
 
