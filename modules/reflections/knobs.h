@@ -143,7 +143,7 @@ inline constexpr NumberKnob kSsrReach{
     .max = 1000,
     .default_value = 8,
     .unit = "m",
-    .ledger_values = {1, 2, 4, 8, 16},
+    .ledger_values = {1, 1.8, 4, 8, 16},
     .only_with = "reflections.tiers=ssr+cube|all"};
 inline constexpr IntegerKnob<std::uint32_t> kSsrRefine{.name = "ssr.refine",
                                                        .meaning = "steps of the binary search for the hit",
