@@ -15,10 +15,9 @@ layout(constant_id = 2) const uint kLayers = 4u;       // entries of the sorted 
 layout(constant_id = 3) const uint kSphereTest = 1u;
 layout(constant_id = 4) const uint kNaive = 0u;           // 1: every proxy of the world for every pixel, without tiles
 layout(constant_id = 5) const uint kPixelRoughness = 1u;  // 0: one spread for all surfaces, as in the paper
+layout(constant_id = 6) const uint kSort = 1u;            // 0: layers stay in the order in which they are inserted
+layout(constant_id = 7) const uint kPixelNormals = 0u;    // 1: rays follow the normals of pixels
 layout(constant_id = 8) const uint kFactors = 1u;         // 0: all lamps are as captured, no row has factors
-
-layout(constant_id = 6) const uint kSort = 1u;          // 0: layers stay in the order in which they are inserted
-layout(constant_id = 7) const uint kPixelNormals = 0u;  // 1: rays follow the normals of pixels
 
 layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
 layout(set = 0, binding = 1, scalar) uniform Reflection { ReflectionConstants reflection; };
