@@ -16,6 +16,11 @@
 #define GLOAM_FACTORS_IN_USE true
 #endif
 
+// Most rows that there may be; a shader may know it.
+#ifndef GLOAM_MOST_PROBES
+#define GLOAM_MOST_PROBES ~0u
+#endif
+
 // Point of a probe's map that shows a direction.
 vec2 probe_uv(vec3 direction) { return octahedral_encode(direction.xzy) * 0.5 + 0.5; }
 
@@ -130,7 +135,9 @@ vec3 seen_in_probe(ProbeLookup probe, float roughness) {
 vec3 probes_radiance(uint count, vec3 position, vec3 normal, vec3 direction, float roughness, out float covered) {
   ChosenProbes chosen = choose_probes(count, position, normal, direction);
   covered = chosen.covered;
-  vec3 light = seen_in_probe(chosen.first, roughness) + seen_in_probe(chosen.second, roughness);
+  vec3 light = seen_in_probe(chosen.first, roughness);
+  // Where there is one probe, the second lookup would have constant coordinates: Mesa 22.3 crashes on those.
+  if (GLOAM_MOST_PROBES > 1u) light += seen_in_probe(chosen.second, roughness);
   return light * (covered / max(chosen.first.share + chosen.second.share, 1e-6));
 }
 

@@ -17,6 +17,7 @@ layout(constant_id = 27) const uint kProbes = 0u;
 // 0: all lamps are as captured, no row has factors.
 layout(constant_id = 28) const uint kFactors = 1u;
 #define GLOAM_FACTORS_IN_USE (kFactors != 0u)
+#define GLOAM_MOST_PROBES kProbes
 
 layout(set = 0, binding = GLOAM_SURROUNDINGS_BINDING, scalar) uniform Surroundings {
   SurroundingsConstants surroundings;
