@@ -38,19 +38,18 @@ vec3 probe_layer_radiance(float layer, vec2 uv, float roughness) {
 vec3 probe_radiance(float layer, float emission, float factor, vec3 direction, float roughness) {
   vec2 uv = probe_uv(direction);
   vec3 light = probe_layer_radiance(layer, uv, roughness);
-  if (GLOAM_FACTORS_IN_USE && factor >= 0.0) {
-    vec3 unscaled = vec3(0.0);
-    if (emission >= 0.0) unscaled = probe_layer_radiance(emission, uv, roughness);
-    light = followed_light(light, unscaled, captured_factor(factor, GLOAM_PROBE_CELLS, uv));
-  }
-  return light;
+  if (!GLOAM_FACTORS_IN_USE) return light;
+  // Choices, not branches: where a uniform decides a branch, Mesa 22.3 compiles a shader for each of its values, and
+  // may crash when it reads them.
+  vec3 unscaled = probe_layer_radiance(max(emission, 0.0), uv, roughness) * float(emission >= 0.0);
+  vec3 followed = followed_light(light, unscaled, captured_factor(max(factor, 0.0), GLOAM_PROBE_CELLS, uv));
+  return mix(light, followed, bvec3(factor >= 0.0));
 }
 
 // Share of the probe at a point: 1 inside, falling to 0 toward the faces of its box.
 float probe_share(ProbeRow probe, vec3 at) {
-  if (probe.global > 0.5) return 1.0;
   vec3 inside = (1.0 - abs(at)) / probe.fade;
-  return clamp(min(inside.x, min(inside.y, inside.z)), 0.0, 1.0);
+  return max(clamp(min(inside.x, min(inside.y, inside.z)), 0.0, 1.0), probe.global);
 }
 
 // A vector in the axes of the probe's box; half the box has length 1.
@@ -77,7 +76,7 @@ vec3 parallax_direction(ProbeRow probe, vec3 at, vec3 position, vec3 direction) 
   vec3 distances = (sign(along) - at) / along;
   float distance_m = min(distances.x, min(distances.y, distances.z));
   vec3 toward = position + direction * max(distance_m, 0.0) - probe.center;
-  return probe.global > 0.5 ? direction : toward;
+  return mix(toward, direction, bvec3(probe.global > 0.5));
 }
 
 // What to look up in a probe. Its row is not read again: at a place that differs between threads, that costs processors
@@ -97,11 +96,11 @@ struct ChosenProbes {
 const ProbeLookup kNoProbe = ProbeLookup(vec3(0.0, 1.0, 0.0), 0.0, 0.0, -1.0, -1.0);
 
 void choose(inout ProbeLookup chosen, ProbeLookup probe, bool take) {
-  chosen.direction = take ? probe.direction : chosen.direction;
-  chosen.share = take ? probe.share : chosen.share;
-  chosen.layer = take ? probe.layer : chosen.layer;
-  chosen.emission = take ? probe.emission : chosen.emission;
-  chosen.factor = take ? probe.factor : chosen.factor;
+  chosen.direction = mix(chosen.direction, probe.direction, bvec3(take));
+  chosen.share = mix(chosen.share, probe.share, take);
+  chosen.layer = mix(chosen.layer, probe.layer, take);
+  chosen.emission = mix(chosen.emission, probe.emission, take);
+  chosen.factor = mix(chosen.factor, probe.factor, take);
 }
 
 void consider_probe(inout ChosenProbes chosen, ProbeRow probe, vec3 position, vec3 normal, vec3 direction) {
@@ -110,10 +109,9 @@ void consider_probe(inout ChosenProbes chosen, ProbeRow probe, vec3 position, ve
   vec3 toward = parallax_direction(probe, at, position, direction);
   ProbeLookup lookup = ProbeLookup(toward, share, probe.layer, probe.emission, probe.factor);
   chosen.covered += share;
-  bool is_first = share > 0.0 && chosen.first.share == 0.0;
-  bool is_second = share > 0.0 && !is_first && chosen.second.share == 0.0;
-  choose(chosen.first, lookup, is_first);
-  choose(chosen.second, lookup, is_second);
+  bvec2 empty = equal(vec2(chosen.first.share, chosen.second.share), vec2(0.0));
+  choose(chosen.second, lookup, all(bvec3(share > 0.0, !empty.x, empty.y)));
+  choose(chosen.first, lookup, all(bvec2(share > 0.0, empty.x)));
 }
 
 #ifndef GLOAM_CHOOSE_PROBES
@@ -136,7 +134,6 @@ vec3 probes_radiance(uint count, vec3 position, vec3 normal, vec3 direction, flo
   ChosenProbes chosen = choose_probes(count, position, normal, direction);
   covered = chosen.covered;
   vec3 light = seen_in_probe(chosen.first, roughness);
-  // Where there is one probe, the second lookup would have constant coordinates: Mesa 22.3 crashes on those.
   if (GLOAM_MOST_PROBES > 1u) light += seen_in_probe(chosen.second, roughness);
   return light * (covered / max(chosen.first.share + chosen.second.share, 1e-6));
 }
