@@ -17,6 +17,7 @@ struct GrassSurface {
   std::uint32_t seed = 1;
   vec2 height_m = vec2(0.3f, 0.06f);  ///< mean, deviation
   float width_m = 0.006f;
+  float damping = 1.5f;  ///< of the blades' swings, 1/s: they fall to 1/e in 1 s over damping
   float max_distance_m = 40.0f;  ///< quantisation range of the LOD
   std::uint32_t types = 0;       ///< blade file in SceneStrings; 0: the built-in five types
 };

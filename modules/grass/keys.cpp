@@ -43,6 +43,10 @@ void add_grass_keys(KeyRegistry& registry) {
                         0, 100, &GrassSurface::height_m));
   registry.add(
       number_key(grass("gloam.grass.width", "0.006", "m", "width of a blade"), 1e-6, 10, &GrassSurface::width_m));
+  registry.add(number_key(grass("gloam.grass.damping", "1.5", "1/s",
+                                "damping of the blades' swings, which fall to 1/e in 1 s over this; blade types have a "
+                                "factor on it"),
+                          0, 1000, &GrassSurface::damping));
   registry.add(number_key(grass("gloam.grass.max_distance", "40", "m", "quantisation range of the LOD"), 1e-3, 1e6,
                           &GrassSurface::max_distance_m));
   registry.add(file_key(grass("gloam.grass.types", "", "", "file of blade types; default: the five built-in types"),

@@ -28,7 +28,8 @@ struct GrassBladeRow {
 /// Shape of one blade type.
 struct GrassTypeRow {
   vec2 stem[GLOAM_GRASS_KNOTS];  // knots at rest, forward and up, for a length of 1; knot 0 is (0, 0)
-  float stiffness;               // 0…1, share of the local shape that each of 3 iterations restores
+  float stiffness;               // 0…1: limp to stiff
+  float damping;                 // 1/s: a swing falls to 1/e in 1 s over damping
   float taper;                   // width at the tip over width at the root
 };
 

@@ -22,27 +22,28 @@ namespace {
 constexpr std::uint32_t kMostSlaves = 16;  // per master
 constexpr std::size_t kPatchSlots = GLOAM_GRASS_PATCH_BLADES;
 
-/// Blade types of all sources in one table of at most 16. Sources with the same file share its types.
+/// Blade types of all sources in one table of at most 16. Sources with the same file and damping share its types.
 class TypeTables {
  public:
   struct Range {
     std::string file;
+    float damping = 0.0f;
     std::vector<BladeType> types;
     std::uint32_t first = 0;
   };
 
   explicit TypeTables(GrassField& field) : field_(field) {}
 
-  /// The index of the file's range.
-  [[nodiscard]] std::size_t find_or_add(const std::string& file) {
+  /// The index of the range of the file with this damping.
+  [[nodiscard]] std::size_t find_or_add(const std::string& file, float damping) {
     for (std::size_t i = 0; i < ranges_.size(); ++i)
-      if (ranges_[i].file == file) return i;
-    Range range{file, {}, static_cast<std::uint32_t>(field_.types.size())};
+      if (ranges_[i].file == file && ranges_[i].damping == damping) return i;
+    Range range{file, damping, {}, static_cast<std::uint32_t>(field_.types.size())};
     range.types = read(file);
     const std::size_t room = GLOAM_GRASS_TYPES - field_.types.size();
     if (range.types.size() > room) drop(range, room);
     for (std::size_t i = range.first == field_.types.size() ? 0 : range.types.size(); i < range.types.size(); ++i)
-      field_.types.push_back(blade_type_row(range.types[i]));
+      field_.types.push_back(blade_type_row(range.types[i], damping));
     ranges_.push_back(std::move(range));
     return ranges_.size() - 1;
   }
@@ -164,7 +165,7 @@ std::uint64_t key_of(const GrassSource& source, std::uint32_t mesh, const SceneA
   hasher.text(source.types_file);
   hasher.value(std::bit_cast<std::uint64_t>(settings.metres_per_unit));
   for (const float value : {source.surface.density, source.surface.height_m.x, source.surface.height_m.y,
-                            source.surface.width_m, source.surface.max_distance_m})
+                            source.surface.width_m, source.surface.damping, source.surface.max_distance_m})
     add_bits(hasher, value);
   return hasher.digest();
 }
@@ -190,7 +191,7 @@ void plant(PlannedSurface& surface, std::uint32_t asked, const GrassGrowthSettin
     field.plantings.push_back(std::move(planting));
     return;
   }
-  const TypeTables::Range& types = tables.range(tables.find_or_add(source.types_file));
+  const TypeTables::Range& types = tables.range(tables.find_or_add(source.types_file, source.surface.damping));
   planting.first_type = types.first;
   planting.type_count = static_cast<std::uint32_t>(types.types.size());
   const GrassPlanting* kept = surface.kept;

@@ -82,7 +82,18 @@ std::string read_point(std::string_view word, BladeType& type) {
   return {};
 }
 
-std::string read_type(const std::vector<std::string_view>& words, BladeType& type) {
+/// Reads "damping=factor", which may stand before the points.
+std::string read_damping(std::string_view word, BladeType& type) {
+  constexpr NumberField kDamping{"damping", 100.0f, true, &BladeType::damping};
+  return read_number(kDamping, word.substr(word.find('=') + 1), type);
+}
+
+std::string read_type(std::vector<std::string_view> words, BladeType& type) {
+  if (words.size() > kFirstPoint && words[kFirstPoint].starts_with("damping=")) {
+    std::string fault = read_damping(words[kFirstPoint], type);
+    if (!fault.empty()) return fault;
+    words.erase(words.begin() + kFirstPoint);
+  }
   if (words.size() < kFirstPoint + 2)
     return "a type needs name, share, length, width, stiffness, taper and at least 2 points";
   if (words.size() > kFirstPoint + kMaxPoints)

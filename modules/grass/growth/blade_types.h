@@ -21,6 +21,7 @@ struct BladeType {
   float width_scale = 1.0f;   ///< factor on GrassSurface::width_m
   float stiffness = 0.5f;     ///< 0…1
   float taper = 0.1f;         ///< width at the tip over width at the root, 0…1
+  float damping = 1.0f;       ///< factor on GrassSurface::damping, 0…100
   std::vector<vec2> points;   ///< control points of the stem: forward, up; the first is (0, 0); up ≥ 0
 };
 
@@ -34,7 +35,7 @@ struct BladeType {
 
 /// Samples the stem at 16 knots with equal distances, 1/15 each, so that its length is 1. The curve of the control
 /// points is a quadratic B-spline: it begins at the first and ends at the last, and bends sharply at a point that is
-/// given twice. No knot is below 0.
-[[nodiscard]] shaders::GrassTypeRow blade_type_row(const BladeType& type);
+/// given twice. No knot is below 0. damping: GrassSurface::damping.
+[[nodiscard]] shaders::GrassTypeRow blade_type_row(const BladeType& type, float damping = 1.5f);
 
 }  // namespace gloam

@@ -76,7 +76,7 @@ bool place_knots(const std::vector<StemPoint>& line, double chord, std::array<St
 
 }  // namespace
 
-shaders::GrassTypeRow blade_type_row(const BladeType& type) {
+shaders::GrassTypeRow blade_type_row(const BladeType& type, float damping) {
   GLOAM_ASSERT(type.points.size() >= 2, "a stem has at least two control points");
   const std::vector<StemPoint> line = flatten(type.points);
   double length = 0.0;
@@ -95,6 +95,7 @@ shaders::GrassTypeRow blade_type_row(const BladeType& type) {
     row.stem[i] = vec2(static_cast<float>(knots[i].forward * scale), static_cast<float>(knots[i].up * scale));
   row.stiffness = type.stiffness;
   row.taper = type.taper;
+  row.damping = type.damping * damping;
   return row;
 }
 

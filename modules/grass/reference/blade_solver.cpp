@@ -11,14 +11,19 @@
 namespace gloam {
 namespace {
 
-constexpr double kNominalStep = 1.0 / 120.0;
-constexpr double kNominalIterations = 3.0;
 constexpr double kGravity = 9.81;
-constexpr double kLeastDamping = 2.0;
-constexpr double kDragAcceleration = 60.0;
-constexpr double kDragSpeed = 20.0;
+constexpr double kDragAcceleration = 90.0;
+constexpr double kDragSpeed = 10.0;
+constexpr double kNominalLength = 0.3;
+constexpr double kNominalWidth = 0.006;
+constexpr double kRodBend = 290.0;
+constexpr double kHeldBend = 260.0;
+constexpr double kMostBend = 32400.0;
+constexpr double kLimpDamping = 6.0;
+constexpr double kDampingRatio = 0.1;
+constexpr double kMostJointAngle = 0.314;
+constexpr double kModeBend = 160.758;
 constexpr double kLengthsPerSecond = 30.0;
-constexpr double kLowerPart = 0.25;
 constexpr double kShort = 1e-7;
 constexpr std::size_t kTip = kGrassKnots - 1;
 
@@ -35,18 +40,27 @@ dvec3 bounded(dvec3 v, double most) {
   return length > most ? v * (most / length) : v;
 }
 
-double elasticity(const BladeModel& blade) {
-  const double stiffness = std::clamp(blade.stiffness, 0.0, static_cast<double>(0.999f));
-  return kNominalIterations * stiffness / (1.0 - stiffness);
+/// ω² of the blade's slowest swing, 1/s².
+double bend_of(const BladeModel& blade) {
+  const double stiffness = std::clamp(blade.stiffness, 0.0, 0.999);
+  const double shorter = kNominalLength / std::max(blade.length_m, 1e-4);
+  const double wider = blade.width_m / kNominalWidth;
+  const double bend =
+      stiffness / (1.0 - stiffness) * std::hypot(kRodBend * std::pow(wider * shorter * shorter, 2.0), kHeldBend * shorter);
+  return std::min(bend, kMostBend);
 }
 
-/// The blade's constants for one step length and number of iterations.
+/// Bending stiffness of the joint below knot k, relative to that at the root: a blade is thinner toward its tip.
+double joint_share(std::size_t k) { return static_cast<double>(kGrassKnots - k) / kTip; }
+
+/// The blade's constants for one step length.
 struct Constants {
   Segments length_m{};
   Knots direction{};  // at rest, of the segment that ends at the knot
-  double share = 0.0;
-  double gain = 1.0;
+  Segments joint{};   // β of the joint below the knot
+  double gain = 0.0;
   double retained = 0.0;
+  double drag = 1.0;
   double reach_m = 0.0;
 };
 
@@ -58,14 +72,13 @@ Constants constants_of(const BladeModel& blade, const BladeSteps& frame) {
     c.length_m[k] = glm::length(segment);
     c.direction[k] = direction_or(segment, blade.normal);
   }
-  const double nominal = elasticity(blade);
-  const double ratio = frame.step_s / kNominalStep;
-  const double frequency = std::sqrt(nominal) / kNominalStep;
-  const double damped = std::max(kLeastDamping, std::sqrt(2.0) * frequency) * frame.step_s;
-  c.retained = std::exp(-damped);
-  c.gain = (1.0 - c.retained) / damped;
-  const double softness = frame.iterations / (nominal * ratio * ratio * c.gain);
-  c.share = nominal > 0.0 ? 1.0 / (1.0 + softness) : 0.0;
+  const double bend = bend_of(blade);
+  const double x2 = bend * frame.step_s * frame.step_s;
+  const double damping = std::max({blade.damping, kLimpDamping - std::sqrt(bend), kDampingRatio * std::sqrt(bend)});
+  c.retained = std::min(std::exp(-2.0 * damping * frame.step_s) * (1.0 + x2), 1.0);
+  c.gain = frame.step_s * frame.step_s * (1.0 + x2);
+  for (std::size_t k = 1; k < kGrassKnots; ++k) c.joint[k] = kModeBend * bend * c.gain * joint_share(k);
+  c.drag = std::clamp(kNominalWidth / std::max(blade.width_m, 1e-6), 0.25, 4.0);
   c.reach_m = kLengthsPerSecond * blade.length_m * frame.step_s;
   return c;
 }
@@ -82,42 +95,74 @@ Knots predict(const BladeModel& blade, const BladeSteps& frame, const Constants&
     const dvec3 along = direction_or(state.at[k] - state.at[k - 1], dvec3(0.0));
     dvec3 air = velocity - moved / frame.step_s;
     air -= along * glm::dot(along, air);
-    const dvec3 acceleration = dvec3(0.0, -kGravity, 0.0) + air * (kDragAcceleration / (glm::length(air) + kDragSpeed));
-    const double weight = static_cast<double>(k) / kTip;
-    way[k] = moved * c.retained + acceleration * (c.gain * weight * frame.step_s * frame.step_s);
+    const double speed = glm::length(air);
+    const double eased = speed + kDragSpeed;
+    const dvec3 acceleration =
+        frame.pull + air * (c.drag * kDragAcceleration * speed / (eased * eased));
+    way[k] = moved * c.retained + acceleration * (c.gain * static_cast<double>(k) / kTip);
   }
   return way;
 }
 
-/// One stage: the segments that begin at knots first, first + 2, …
-void constrain(const Constants& c, std::size_t first, Knots& at) {
-  const Knots old = at;
-  for (std::size_t low = first; low < kTip; low += 2) {
-    const std::size_t high = low + 1;
-    const dvec3 segment = old[high] - old[low];
-    const double length = glm::length(segment);
-    const dvec3 excess = length > kShort ? segment * (1.0 - c.length_m[high] / length) : dvec3(0.0);
-    const double lower_part = low > 0 ? kLowerPart : 0.0;
-    at[low] += lower_part * excess;
-    at[high] -= (1.0 - lower_part) * excess;
-    dvec3 target = c.direction[high];
-    if (low > 0) {
-      const dvec3 below = c.direction[low];
-      target = turned(below, direction_or(old[low] - old[low - 1], below), target);
-    }
-    at[high] += c.share * (at[low] + c.length_m[high] * target - at[high]);
+/// Solves (1 + K) x = force for each component, where K is the stiffness of the joints between segments. Gaussian
+/// elimination of the band.
+Knots solve_bending(const Constants& c, Knots force) {
+  Segments diagonal{};
+  for (std::size_t k = 1; k < kGrassKnots; ++k) diagonal[k] = 1.0 + c.joint[k] + (k < kTip ? c.joint[k + 1] : 0.0);
+  for (std::size_t k = 2; k < kGrassKnots; ++k) {
+    const double factor = c.joint[k] / diagonal[k - 1];
+    diagonal[k] -= factor * c.joint[k];
+    force[k] += factor * force[k - 1];
   }
+  for (std::size_t k = kTip; k > 0; --k) {
+    if (k < kTip) force[k] += c.joint[k + 1] * force[k + 1];
+    force[k] /= diagonal[k];
+  }
+  return force;
 }
 
-dvec3 push_of(const shaders::GrassCollider& c, dvec3 at, dvec3 up, double passed) {
+/// Brings the knots from where they would move freely, `at`, to where the joints hold them. Segments keep lengths.
+void bend(const Constants& c, std::uint32_t iterations, Knots& at) {
+  Knots segment{};
+  Knots direction{};
+  direction[0] = c.direction[0];
+  for (std::size_t k = 1; k < kGrassKnots; ++k) {
+    direction[k] = direction_or(at[k] - at[k - 1], c.direction[k]);
+    segment[k] = c.length_m[k] * direction[k];
+  }
+  for (std::uint32_t i = 0; i < iterations; ++i) {
+    Knots force{};
+    for (std::size_t k = 1; k < kGrassKnots; ++k) {
+      const dvec3 target = c.length_m[k] * turned(c.direction[k - 1], direction[k - 1], c.direction[k]);
+      const dvec3 below = k > 1 ? c.length_m[k - 1] * direction[k - 1] - segment[k - 1] : dvec3(0.0);
+      const dvec3 strain = c.joint[k] * (segment[k] - target + below);
+      force[k] -= strain;
+      force[k - 1] += strain;
+    }
+    const Knots moved = solve_bending(c, force);
+    for (std::size_t k = 1; k < kGrassKnots; ++k) direction[k] = direction_or(segment[k] + moved[k], direction[k]);
+  }
+  for (std::size_t k = 1; k < kGrassKnots; ++k) at[k] = at[k - 1] + c.length_m[k] * direction[k];
+}
+
+/// Ends of a collider's axis, or twice its centre.
+struct ColliderPlace {
+  dvec3 from;
+  dvec3 to;
+};
+
+ColliderPlace place_of(const shaders::GrassCollider& c, double passed) {
   const auto swept = [&](vec3 before, vec3 now) { return dvec3(before) + (dvec3(now) - dvec3(before)) * passed; };
-  const dvec3 from = swept(c.from_previous, c.from);
+  return {swept(c.from_previous, c.from), swept(c.to_previous, c.to)};
+}
+
+dvec3 push_of(const shaders::GrassCollider& c, const ColliderPlace& place, dvec3 at, dvec3 up) {
   if (c.box != 0) {
     const dvec3 axes[3] = {dvec3(c.axis_x), dvec3(c.axis_y), dvec3(c.axis_z)};
     double least = 0.0;
     dvec3 out(0.0);
     for (int i = 0; i < 3; ++i) {
-      const double q = glm::dot(axes[i], at - from);
+      const double q = glm::dot(axes[i], at - place.from);
       const double inside = static_cast<double>(c.half_size[i]) - std::abs(q);
       if (inside <= 0.0) return dvec3(0.0);
       if (i > 0 && inside >= least) continue;
@@ -126,28 +171,73 @@ dvec3 push_of(const shaders::GrassCollider& c, dvec3 at, dvec3 up, double passed
     }
     return out * least;
   }
-  const dvec3 axis = swept(c.to_previous, c.to) - from;
-  const double share = std::clamp(glm::dot(at - from, axis) / std::max(glm::dot(axis, axis), 1e-12), 0.0, 1.0);
-  const dvec3 away = at - (from + share * axis);
+  const dvec3 axis = place.to - place.from;
+  const double share = std::clamp(glm::dot(at - place.from, axis) / std::max(glm::dot(axis, axis), 1e-12), 0.0, 1.0);
+  const dvec3 away = at - (place.from + share * axis);
   const double depth = static_cast<double>(c.radius_m) - glm::length(away);
   return depth > 0.0 ? direction_or(away, up) * depth : dvec3(0.0);
 }
 
-void collide(const BladeModel& blade, const BladeSteps& frame, const Constants& c, std::uint32_t step, Knots& at) {
-  const double passed = (step + 1.0) / frame.frame_steps;
-  for (dvec3& knot : at)
-    for (const shaders::GrassCollider& collider : frame.colliders)
-      knot += bounded(push_of(collider, blade.root + knot, blade.normal, passed), c.reach_m);
+/// When in a step, 0…1, the capsule is nearest to a knot.
+double nearest_time(const ColliderPlace& begin, const ColliderPlace& end, dvec3 at) {
+  double time = 1.0;
+  for (int i = 0; i < 4; ++i) {
+    const dvec3 from = glm::mix(begin.from, end.from, time);
+    const dvec3 axis = glm::mix(begin.to, end.to, time) - from;
+    const double along = std::clamp(glm::dot(at - from, axis) / std::max(glm::dot(axis, axis), 1e-12), 0.0, 1.0);
+    const dvec3 first = glm::mix(begin.from, begin.to, along);
+    const dvec3 way = glm::mix(end.from, end.to, along) - first;
+    const double way2 = glm::dot(way, way);
+    time = way2 > 1e-14 ? std::clamp(glm::dot(at - first, way) / way2, 0.0, 1.0) : 1.0;
+  }
+  return time;
 }
 
-/// From root to tip: each segment gets its length, and none leads below the ground plane.
+/// The middle of the time in which the box holds a knot; 1 if it never does.
+double inside_time(const shaders::GrassCollider& c, dvec3 begin, dvec3 end, dvec3 at) {
+  const dvec3 axes[3] = {dvec3(c.axis_x), dvec3(c.axis_y), dvec3(c.axis_z)};
+  double first = 0.0;
+  double last = 1.0;
+  for (int i = 0; i < 3; ++i) {
+    const double q = glm::dot(axes[i], at - begin);
+    const double v = glm::dot(axes[i], end - begin);
+    const auto half = static_cast<double>(c.half_size[i]);
+    if (std::abs(v) <= 1e-7) {
+      if (std::abs(q) > half) return 1.0;
+      continue;
+    }
+    first = std::max(first, std::min((q - half) / v, (q + half) / v));
+    last = std::min(last, std::max((q - half) / v, (q + half) / v));
+  }
+  return first <= last ? 0.5 * (first + last) : 1.0;
+}
+
+void collide(const BladeModel& blade, const BladeSteps& frame, const Constants& c, std::uint32_t step, Knots& at) {
+  for (dvec3& knot : at)
+    for (const shaders::GrassCollider& collider : frame.colliders) {
+      const ColliderPlace begin = place_of(collider, static_cast<double>(step) / frame.frame_steps);
+      const ColliderPlace end = place_of(collider, (step + 1.0) / frame.frame_steps);
+      const dvec3 up = blade.normal;
+      const double time = collider.box != 0 ? inside_time(collider, begin.from, end.from, blade.root + knot)
+                                            : nearest_time(begin, end, blade.root + knot);
+      const ColliderPlace nearest{glm::mix(begin.from, end.from, time), glm::mix(begin.to, end.to, time)};
+      knot += bounded(push_of(collider, nearest, blade.root + knot, up), c.reach_m);
+      knot += bounded(push_of(collider, end, blade.root + knot, up), c.reach_m);
+    }
+}
+
+/// From root to tip: each segment gets its length, no joint folds, and no segment leads below the ground plane.
 void restore(const BladeModel& blade, const Constants& c, Knots& at) {
   at[0] = dvec3(0.0);
   dvec3 along = blade.normal;
   double height = 0.0;
   for (std::size_t k = 1; k < kGrassKnots; ++k) {
     const double length = c.length_m[k];
-    along = direction_or(at[k] - at[k - 1], along);
+    const dvec3 held = turned(c.direction[k - 1], along, c.direction[k]);
+    along = direction_or(at[k] - at[k - 1], held);
+    const dvec3 aside = along - held * glm::dot(along, held);
+    if (glm::dot(along, held) < std::cos(kMostJointAngle))
+      along = held * std::cos(kMostJointAngle) + direction_or(aside, blade.forward) * std::sin(kMostJointAngle);
     double climb = glm::dot(along, blade.normal);
     if (height + length * climb < 0.0) {
       const dvec3 in_plane = along - blade.normal * climb;
@@ -180,6 +270,7 @@ void set_stem(std::uint32_t type, double yaw, std::span<const shaders::GrassType
   blade.forward = blade_forward(blade.normal, yaw);
   const shaders::GrassTypeRow& row = types[std::min<std::size_t>(type, types.size() - 1)];
   blade.stiffness = static_cast<double>(row.stiffness);
+  blade.damping = static_cast<double>(row.damping);
   for (std::size_t k = 0; k < kGrassKnots; ++k)
     blade.rest[k] = blade.length_m * (static_cast<double>(row.stem[k].x) * blade.forward +
                                       static_cast<double>(row.stem[k].y) * blade.normal);
@@ -198,6 +289,7 @@ BladeModel blade_model(const shaders::GrassPatchRow& patch, const shaders::Grass
   blade.root = dvec3(patch.box_from) + dvec3(patch.box_size) * in_box;
   blade.normal = dvec3(octahedral_decode(vec2(signed8(row.root_y_normal >> 16), signed8(row.root_y_normal >> 24))));
   blade.length_m = static_cast<double>(half_to_float(static_cast<std::uint16_t>(row.size & 0xFFFFu)));
+  blade.width_m = static_cast<double>(half_to_float(static_cast<std::uint16_t>(row.size >> 16)));
   set_stem(row.kind >> 8 & 0xFu, 2.0 * static_cast<double>(kPi) * (row.kind & 0xFFu) / 255.0, types, blade);
   return blade;
 }
@@ -207,6 +299,7 @@ BladeModel blade_model(const GrassBlade& source, std::span<const shaders::GrassT
   blade.root = dvec3(source.root_m);
   blade.normal = dvec3(source.ground_normal);
   blade.length_m = static_cast<double>(source.length_m);
+  blade.width_m = static_cast<double>(source.width_m);
   set_stem(source.type, static_cast<double>(source.yaw), types, blade);
   return blade;
 }
@@ -219,11 +312,8 @@ void advance_blade(const BladeModel& blade, const BladeSteps& frame, std::uint32
   for (std::uint32_t step = first; step < frame.frame_steps; ++step) {
     const Knots way = predict(blade, frame, c, state, step);
     Knots next = state.at;
-    for (std::uint32_t i = 0; i < frame.iterations; ++i) {
-      for (std::size_t k = 1; k < kGrassKnots; ++k) next[k] += way[k] / static_cast<double>(frame.iterations);
-      constrain(c, 0, next);
-      constrain(c, 1, next);
-    }
+    for (std::size_t k = 1; k < kGrassKnots; ++k) next[k] += way[k];
+    bend(c, frame.iterations, next);
     collide(blade, frame, c, step, next);
     restore(blade, c, next);
     state.before = state.at;
@@ -239,19 +329,18 @@ void advance_blades(std::span<const BladeModel> blades, const BladeSteps& frame,
 }
 
 double blade_energy(const BladeModel& blade, const BladeState& state, double step_s) {
-  const double stiffness = elasticity(blade) / (kNominalStep * kNominalStep);  // 1/s²
+  const Constants c = constants_of(blade, {.step_s = step_s});
+  const double stiffness = kModeBend * bend_of(blade);  // 1/s²
   double energy = 0.0;
+  dvec3 along = c.direction[0];
   for (std::size_t k = 1; k < kGrassKnots; ++k) {
-    const dvec3 segment = blade.rest[k] - blade.rest[k - 1];
-    dvec3 target = direction_or(segment, blade.normal);
-    if (k > 1) {
-      const dvec3 below = direction_or(blade.rest[k - 1] - blade.rest[k - 2], blade.normal);
-      target = turned(below, direction_or(state.at[k - 1] - state.at[k - 2], below), target);
-    }
-    const dvec3 strain = state.at[k] - state.at[k - 1] - glm::length(segment) * target;
+    const dvec3 target = c.length_m[k] * turned(c.direction[k - 1], along, c.direction[k]);
+    const dvec3 segment = state.at[k] - state.at[k - 1];
     const dvec3 velocity = (state.at[k] - state.before[k]) / step_s;
-    energy += 0.5 * glm::dot(velocity, velocity) + 0.5 * stiffness * glm::dot(strain, strain);
+    energy += 0.5 * glm::dot(velocity, velocity);
+    energy += 0.5 * stiffness * joint_share(k) * glm::dot(segment - target, segment - target);
     energy += kGravity * static_cast<double>(k) / kTip * state.at[k].y;
+    along = direction_or(segment, along);
   }
   return energy;
 }

@@ -24,7 +24,9 @@ struct BladeModel {
   dvec3 normal = dvec3(0.0, 1.0, 0.0);
   dvec3 forward = dvec3(1.0, 0.0, 0.0);  ///< direction in which the stem leans
   double length_m = 0.3;
+  double width_m = 0.006;  ///< at the root
   double stiffness = 0.5;
+  double damping = 1.5;  ///< 1/s: a swing falls to 1/e in 1 s over damping
   std::array<dvec3, kGrassKnots> rest{};  ///< relative to the root
 };
 
@@ -39,7 +41,8 @@ struct BladeSteps {
   dvec3 wind_at = dvec3(0.0);  ///< position of the patch's origin in the wind's field
   double step_s = 1.0 / 120.0;
   std::uint32_t frame_steps = 1;
-  std::uint32_t iterations = 3;  ///< ≥ 1
+  std::uint32_t iterations = 3;              ///< ≥ 1
+  dvec3 pull = dvec3(0.0, -9.81, 0.0);  ///< external acceleration, along the patch's axes
   std::span<const shaders::GrassCollider> colliders;
 };
 
@@ -63,8 +66,8 @@ void advance_blade(const BladeModel& blade, const BladeSteps& frame, std::uint32
 void advance_blades(std::span<const BladeModel> blades, const BladeSteps& frame, JobExecutor& jobs,
                     std::span<BladeState> states);
 
-/// Kinetic and gravity energy, and that of the springs between knots and the places that the segments below give them,
-/// over the mass of a knot: m²/s². Gravity acts by the knots' shares.
+/// Kinetic and gravity energy, and that of the bent joints, over the mass of a knot: m²/s². Gravity acts by the knots'
+/// shares.
 [[nodiscard]] double blade_energy(const BladeModel& blade, const BladeState& state, double step_s);
 
 }  // namespace gloam

@@ -44,6 +44,7 @@ shaders::GrassTypeRow leaning_type(float stiffness) {
   }
   type.stiffness = stiffness;
   type.taper = 0.1f;
+  type.damping = 1.5f;
   return type;
 }
 

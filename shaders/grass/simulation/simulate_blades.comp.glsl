@@ -15,26 +15,43 @@ layout(constant_id = 1) const bool kColliders = true;  // false: no patch has co
 const int kKnots = GLOAM_GRASS_KNOTS;
 
 // Positions relative to the root. Knot 0 is the root and stays at 0.
-vec3 at[kKnots], before[kKnots], next[kKnots], way[kKnots];
+vec3 at[kKnots], before[kKnots], next[kKnots];
 KnotRest rest[kKnots];
+BladeRod rod;
+RodRow rows[kKnots];
+vec3 segment[kKnots];    // below each knot, as the knots move freely
+vec3 direction[kKnots];  // of the segment below each knot, as joints hold it
+vec3 strain[kKnots];     // then the way by which the joints move the segment
 
-// The segments from knot `first` on, every other one. From tip to root: a segment reads the knot below it as it was.
-void half_iteration(int first) {
-  [[unroll]] for (int low = kKnots - 2; low >= 0; --low) {
-    if ((low & 1) != first) continue;
-    vec3 below_low = low >= 1 ? next[max(low, 1) - 1] : vec3(0.0);
-    constrain(rest[low + 1], low == 0, below_low, next[low], next[low + 1]);
+void bend_joints() {
+  [[unroll]] for (int k = 1; k < kKnots; ++k) {
+    vec3 below = segment[k - 1], along = direction[k - 1];
+    strain[k] = joint_strain(rest[k], joint_of(rod, k), segment[k], below, rest[k - 1].length_m * along, along);
+  }
+  [[unroll]] for (int k = 1; k < kKnots; ++k) {
+    precise vec3 force = -strain[k];
+    if (k + 1 < kKnots) force += strain[min(k + 1, kKnots - 1)];
+    if (k >= 2) force -= rows[k].lower * strain[k - 1];
+    strain[k] = force;
+  }
+  [[unroll]] for (int k = kKnots - 1; k > 0; --k) {
+    precise vec3 way = strain[k] * rows[k].inverse;
+    if (k + 1 < kKnots) way -= rows[min(k + 1, kKnots - 1)].lower * strain[min(k + 1, kKnots - 1)];
+    strain[k] = way;
+    precise vec3 held = segment[k] + way;
+    direction[k] = direction_or(held, direction[k]);
   }
 }
 
 void push_out(GrassPatchRow patch_row, GrassStem stem, uint step) {
-  float passed = float(step + 1u) / float(max(steps.frame_steps, 1u));
+  float begin = float(step) / float(max(steps.frame_steps, 1u));
+  float end = float(step + 1u) / float(max(steps.frame_steps, 1u));
   if (patch_row.colliders == 0u) return;
-  [[unroll]] for (int k = 0; k < kKnots; ++k) {
+  [[unroll]] for (int k = 1; k < kKnots; ++k) {
     precise vec3 knot = stem.root + next[k];
     uint i = 0u;
     do {  // inside the loop over knots: see docs/experiments.md, "Shadow filters on SwiftShader"
-      knot = pushed(colliders[patch_row.first_collider + i], knot, stem.normal, passed, rest[k].reach_m);
+      knot = pushed(colliders[patch_row.first_collider + i], knot, stem.normal, begin, end, rod.reach_m);
     } while (++i < patch_row.colliders);
     precise vec3 out_at = knot - stem.root;
     next[k] = out_at;
@@ -44,7 +61,7 @@ void push_out(GrassPatchRow patch_row, GrassStem stem, uint step) {
 void load_knots(GrassPatchRow patch_row, GrassStem stem, uint type, uint place, bool fresh) {
   [[unroll]] for (int k = 0; k < kKnots; ++k) {
     vec2 stems[3] = {types[type].stem[max(k, 2) - 2], types[type].stem[max(k, 1) - 1], types[type].stem[k]};
-    rest[k] = knot_rest(stem, stems, types[type].stiffness, uint(k), steps.step_s, steps.iterations);
+    rest[k] = knot_rest(stem, stems, uint(k));
     precise vec3 knot = knots[place + uint(k)].xyz - stem.root;
     precise vec3 previous = previous_knots[place + uint(k)].xyz - stem.root;
     bool is_valid = !fresh && dot(knot, knot) < 1e12 && dot(previous, previous) < 1e12;  // false for NaN
@@ -52,7 +69,12 @@ void load_knots(GrassPatchRow patch_row, GrassStem stem, uint type, uint place, 
     at[k] = is_valid ? knot : still;
     before[k] = is_valid ? previous : still;
   }
-  at[0] = before[0] = vec3(0.0);
+  at[0] = before[0] = next[0] = segment[0] = vec3(0.0);
+  direction[0] = stem.normal;
+  rest[0].length_m = 0.0;
+  rod = blade_rod(stem, types[type].stiffness, types[type].damping, steps.step_s);
+  rows[0] = RodRow(0.0, 0.0);
+  [[unroll]] for (int k = 1; k < kKnots; ++k) rows[k] = rod_row(rod, k, rows[k - 1]);
 }
 
 // One step: see simulate.comp.
@@ -63,27 +85,28 @@ void advance(GrassPatchRow patch_row, GrassStem stem, uint step, bool runs) {
   vec3 pull = external_acceleration(patch_row);
   wind.drift = steps.wind.drift + steps.wind.velocity * (steps.step_s * float(step));
   vec3 air = grass_unturned(patch_row.turn, wind_velocity(wind, wind_at));
-  [[unroll]] for (int k = 0; k < kKnots; ++k) {
-    precise vec3 moved = predicted(rest[k], at[k], before[k], at[max(k, 1) - 1], air, pull, steps.step_s);
-    moved /= float(iterations);
-    way[k] = moved;
-    next[k] = at[k];
+  [[unroll]] for (int k = 1; k < kKnots; ++k) {
+    precise vec3 free = at[k] + predicted(rod, uint(k), at[k], before[k], at[k - 1], air, pull, steps.step_s);
+    precise vec3 along = free - next[k - 1];
+    next[k] = free;
+    direction[k] = direction_or(along, rest_direction(rest[k]));
+    precise vec3 kept = rest[k].length_m * direction[k];
+    segment[k] = kept;
   }
   uint left = iterations;
   do {
-    [[unroll]] for (int k = 0; k < kKnots; ++k) {
-      precise vec3 sum = next[k] + way[k];
-      next[k] = sum;
-    }
-    half_iteration(0);
-    half_iteration(1);
+    bend_joints();
     --left;
   } while (left != 0u);
+  [[unroll]] for (int k = 1; k < kKnots; ++k) {
+    precise vec3 held = next[k - 1] + rest[k].length_m * direction[k];
+    next[k] = held;
+  }
   if (kColliders) push_out(patch_row, stem, step);
   vec3 from = vec3(0.0), along = stem.normal;
   float height = 0.0;
   [[unroll]] for (int k = 1; k < kKnots; ++k) {
-    from = restored(from, height, next[k], rest[k].length_m, stem.normal, stem.forward, along);
+    from = restored(from, height, next[k], rest[k], stem.normal, stem.forward, along);
     before[k] = runs ? at[k] : before[k];
     at[k] = runs ? from : at[k];
   }

@@ -74,8 +74,8 @@ TEST(BladeSolver, a_stiff_blade_stands_and_a_limp_one_falls) {
   expect_sound(limp, state);
 }
 
-TEST(BladeSolver, a_disturbed_blade_settles_within_a_second) {
-  for (const float stiffness : {0.07f, 0.1f, 0.2f, 0.4f, 0.8f, 1.0f})
+TEST(BladeSolver, a_blade_pressed_flat_stands_up_again) {
+  for (const float stiffness : {0.1f, 0.2f, 0.4f, 0.8f, 1.0f})
     for (const std::uint32_t iterations : {1u, 2u, 3u, 8u}) {
       const BladeModel blade = blade_of(stiffness);
       BladeSteps frame;
@@ -83,16 +83,16 @@ TEST(BladeSolver, a_disturbed_blade_settles_within_a_second) {
       frame.frame_steps = 2000;
       BladeState still = rest_state(blade);
       advance_blade(blade, frame, 2000, still);
-      frame.frame_steps = 120;
+      frame.frame_steps = 480;
       BladeState pressed = pressed_flat(blade);
       EXPECT_GT(distance(pressed, still), 0.1);
-      advance_blade(blade, frame, 120, pressed);
-      EXPECT_LT(distance(pressed, still), 0.005) << stiffness << ", " << iterations << " iterations";
+      advance_blade(blade, frame, 480, pressed);
+      EXPECT_LT(distance(pressed, still), 0.003) << stiffness << ", " << iterations << " iterations";
     }
 }
 
 TEST(BladeSolver, gusts_sway_a_blade_visibly) {
-  const BladeModel blade = blade_of(0.1f);
+  const BladeModel blade = blade_of(0.25f);
   const Wind wind{vec3(5.0f, 0.0f, 0.0f), 0.5f};
   BladeState state = rest_state(blade);
   double least = 1.0, most = 0.0;
@@ -182,9 +182,9 @@ TEST(BladeSolver, shorter_steps_and_more_iterations_converge) {
     std::printf(" %u: %.2f mm", iterations, 1e3 * errors.back());
   }
   std::printf("\n");
-  EXPECT_TRUE(std::is_sorted(errors.rbegin(), errors.rend())) << "each iteration helps";
-  EXPECT_LT(errors[2], 0.006) << "3 iterations";
-  EXPECT_LT(mean_error(3, 4, 64, 8), 0.8 * errors[2]) << "and so do shorter steps";
+  EXPECT_LT(errors[1], errors[0]) << "the second iteration helps";
+  EXPECT_LT(errors[2], 0.0015) << "3 iterations";
+  EXPECT_LT(mean_error(3, 4, 64, 8), 0.5 * errors[2]) << "and so do shorter steps";
   EXPECT_LT(mean_error(64, 4, 64, 8), 0.5 * errors.back());
 }
 
