@@ -6,7 +6,7 @@ namespace gloam {
 
 void add_grass_knobs(KnobRegistry& registry) {
   add_knobs(registry, "grass", kGrassSlaves, kGrassIterations, kGrassDensityScale, kGrassLodPixels, kGrassThreshold,
-            kGrassCastDistance, kGrassAllSegments, kGrassReadback, kGrassThreads);
+            kGrassCastDistance, kGrassAllSegments, kGrassReadback, kGrassFarSteps, kGrassThreads);
 }
 
 GrassKnobs grass_knobs(const KnobRegistry& registry) {
@@ -19,6 +19,7 @@ GrassKnobs grass_knobs(const KnobRegistry& registry) {
   knobs.cast_distance_m = static_cast<float>(registry.value(kGrassCastDistance));
   knobs.threads = registry.value(kGrassThreads);
   knobs.readback = registry.value(kGrassReadback);
+  knobs.far_steps = registry.value(kGrassFarSteps);
   knobs.all_segments = registry.value(kGrassAllSegments);
   return knobs;
 }

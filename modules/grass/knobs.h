@@ -88,6 +88,14 @@ inline constexpr ChoiceKnob<bool> kGrassReadback{
         "the CPU (readback)",
     .choices = {{"indirect", false}, {"readback", true}},
     .exact = false};
+inline constexpr ChoiceKnob<bool> kGrassFarSteps{
+    .name = "grass.far_steps",
+    .meaning =
+        "steps of the simulation for blades that are small in the picture: each by itself (one), or two or four at once "
+        "(several)",
+    .choices = {{"several", true}, {"one", false}},
+    .default_value = true,
+    .exact = false};
 inline constexpr EnumKnob<SimulationThreads> kGrassThreads{
     .name = "grass.group",
     .meaning =
@@ -105,6 +113,7 @@ struct GrassKnobs {
   float cast_distance_m = 6.0f;         ///< blades nearer than this cast shadows
   SimulationThreads threads = SimulationThreads::device;
   bool readback = false;      ///< the CPU sizes the simulation's dispatch by an earlier frame's count
+  bool far_steps = true;      ///< blades that are small in the picture run two or four steps at once
   bool all_segments = false;  ///< every blade has 15 segments, however small it is in the picture
 };
 

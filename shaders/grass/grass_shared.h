@@ -86,9 +86,11 @@ struct GrassSteps {
 
 /// One master that a frame simulates.
 struct GrassMaster {
-  uint blade;  // patch row << 8 | index in the patch
-  uint steps;  // to run; GLOAM_GRASS_NO_STEP: put the knots at rest first, then run GrassSteps::frame_steps
+  uint blade;   // patch row << 8 | index in the patch
+  uint steps;   // to run; GLOAM_GRASS_NO_STEP: put the knots at rest first, then run GrassSteps::frame_steps
+  uint stride;  // a far master runs steps of this many at once; 0 is 1
 };
+#define GLOAM_GRASS_MOST_STRIDE 4  // a power of two
 
 GLOAM_SHARED_END
 

@@ -19,6 +19,8 @@ constexpr std::uint32_t kBladesOfPatch = GLOAM_GRASS_PATCH_BLADES;
 constexpr double kFullTurn = 2.0 * 3.14159265358979323846;
 constexpr double kSlaveYaw = 0.6;  // radians, greatest difference from the master
 constexpr double kWidthVariation = 0.25;
+constexpr double kStoutVariation = 0.1;  // of the width over the length, among masters
+constexpr double kAlike = 0.9;           // correlation of the lengths of a master and its slaves
 constexpr double kShortest = 0.25;  // times the mean length
 constexpr double kLongest = 2.0;
 
@@ -38,12 +40,16 @@ void spread_order(std::uint32_t count, std::array<std::uint32_t, kBladesOfPatch>
   for (std::uint32_t i = 0; i < count; ++i) order[i] = static_cast<std::uint32_t>(keys[i]);
 }
 
-/// Gives blades[order[i]] the rank (first + i + shift) / all.
-void set_ranks(std::span<GrassBlade> blades, std::uint32_t first, std::uint32_t all, double shift) {
+/// Gives master order[i] + turn and its slaves the rank (i + shift) / masters: where the level of detail leaves blades
+/// out, it leaves out whole groups, so the share of masters stays. turn: any; else the groups of a blade less, which are
+/// evenly spaced, would be the first in each patch.
+void set_ranks(std::span<GrassBlade> blades, std::uint32_t masters, double shift, std::uint32_t turn) {
   std::array<std::uint32_t, kBladesOfPatch> order{};
-  const auto count = static_cast<std::uint32_t>(blades.size());
-  spread_order(count, order);
-  for (std::uint32_t i = 0; i < count; ++i) blades[order[i]].rank = static_cast<float>((first + i + shift) / all);
+  spread_order(masters, order);
+  for (std::uint32_t i = 0; i < masters; ++i) 
+    blades[(order[i] + turn) % masters].rank = static_cast<float>((i + shift) / masters);
+  const std::uint32_t first_slot = blades.front().slot;
+  for (GrassBlade& slave : blades.subspan(masters)) slave.rank = blades[slave.master - first_slot].rank;
 }
 
 /// Fills the patches of one surface; each call of fill writes one patch and its slots.
@@ -64,7 +70,9 @@ class PatchFiller {
     split_by_space(items, patch.masters);
     const dvec3 middle = middle_of(items);
     patch.origin = surface_.origin + middle;
-    const double shift = BladeRandom(source_.values.seed, items.front().id, kRankNumbers).unit();
+    BladeRandom rank_random(source_.values.seed, items.front().id, kRankNumbers);
+    const double shift = rank_random.unit();
+    const auto turn = static_cast<std::uint32_t>(rank_random.unit() * patch.masters);
 
     const std::uint32_t first_slot = blades.front().slot;
     std::uint32_t next_slave = patch.masters;
@@ -76,12 +84,11 @@ class PatchFiller {
       blades[group] = make_master(members[master].id, first_slot + group, middle);
       for (std::size_t i = 0; i < members.size(); ++i) {
         if (i == master) continue;
-        blades[next_slave] = make_slave(members[i].id, first_slot + next_slave, middle, blades[group]);
+        blades[next_slave] = make_slave(members[i].id, members[master].id, first_slot + next_slave, middle, blades[group]);
         ++next_slave;
       }
     }
-    set_ranks(blades.first(patch.masters), 0, count, shift);
-    set_ranks(blades.subspan(patch.masters, count - patch.masters), patch.masters, count, shift);
+    set_ranks(blades.first(count), patch.masters, shift, turn);
     for (const GrassBlade& blade : blades.first(count)) {
       patch.roots.grow(blade.root_m);
       patch.reach_m = std::max(patch.reach_m, blade.length_m);
@@ -132,19 +139,25 @@ class PatchFiller {
     blade.type = static_cast<std::uint16_t>(source_.first_type + pick_type(id));
     blade.slot = slot;
     blade.master = slot;
-    const double yaw = set_look(id, middle, blade);
-    blade.yaw = wrapped(yaw * kFullTurn);
+    const Look look = look_of(id);
+    set_look(look, id, middle, blade);
+    blade.yaw = wrapped(look.yaw * kFullTurn);
     return blade;
   }
 
-  [[nodiscard]] GrassBlade make_slave(std::uint32_t id, std::uint32_t slot, const dvec3& middle,
-                                      const GrassBlade& master) const {
+  /// A slave is about as long as its master and as stout, so that wind bends it about as far.
+  [[nodiscard]] GrassBlade make_slave(std::uint32_t id, std::uint32_t master_id, std::uint32_t slot,
+                                      const dvec3& middle, const GrassBlade& master) const {
     GrassBlade blade;
     blade.type = master.type;
     blade.slot = slot;
     blade.master = master.slot;
-    const double yaw = set_look(id, middle, blade);
-    blade.yaw = wrapped(double{master.yaw} + (2.0 * yaw - 1.0) * kSlaveYaw);
+    Look look = look_of(id);
+    const Look of_master = look_of(master_id);
+    look.normal = kAlike * of_master.normal + std::sqrt(1.0 - kAlike * kAlike) * look.normal;
+    look.stout = of_master.stout;
+    set_look(look, id, middle, blade);
+    blade.yaw = wrapped(double{master.yaw} + (2.0 * look.yaw - 1.0) * kSlaveYaw);
     return blade;
   }
 
@@ -153,23 +166,38 @@ class PatchFiller {
     return in_turn < static_cast<float>(kFullTurn) ? in_turn : 0.0f;
   }
 
-  /// Sets what does not depend on the master; the type is set. Returns a random number for the yaw.
-  double set_look(std::uint32_t id, const dvec3& middle, GrassBlade& blade) const {
-    const BladeType& type = source_.types[blade.type - source_.first_type];
+  /// Random numbers of a blade.
+  struct Look {
+    double yaw = 0.0;     ///< 0…1
+    double normal = 0.0;  ///< of a normal distribution: length
+    double stout = 0.0;   ///< -1…1: width over length
+    double layer = 0.0;   ///< 0…1
+  };
+  [[nodiscard]] Look look_of(std::uint32_t id) const {
     BladeRandom random(source_.values.seed, id, kLookNumbers);
-    const double yaw = random.unit();
+    Look look;
+    look.yaw = random.unit();
     // Box and Muller's transform of two uniform numbers to a normal one.
     const double radius = std::sqrt(-2.0 * std::log(1.0 - random.unit()));
-    const double normal = radius * std::cos(kFullTurn * random.unit());
+    look.normal = radius * std::cos(kFullTurn * random.unit());
+    look.stout = 2.0 * random.unit() - 1.0;
+    look.layer = random.unit();
+    return look;
+  }
+
+  /// Sets what does not depend on the master; the type is set.
+  void set_look(const Look& look, std::uint32_t id, const dvec3& middle, GrassBlade& blade) const {
+    const BladeType& type = source_.types[blade.type - source_.first_type];
     const double mean = std::max(double{source_.values.height_m.x}, 0.0) * type.length_scale;
     const double deviation = double{source_.values.height_m.y} * type.length_scale;
-    const double width = 1.0 + kWidthVariation * (2.0 * random.unit() - 1.0);
-    blade.length_m = static_cast<float>(std::clamp(mean + deviation * normal, kShortest * mean, kLongest * mean));
+    const double length = std::clamp(mean + deviation * look.normal, kShortest * mean, kLongest * mean);
+    const double width = std::clamp((1.0 + kStoutVariation * look.stout) * (mean > 0.0 ? length / mean : 1.0),
+                                    1.0 - kWidthVariation, 1.0 + kWidthVariation);
+    blade.length_m = static_cast<float>(length);
     blade.width_m = static_cast<float>(double{source_.values.width_m} * type.width_scale * width);
-    blade.layer = static_cast<std::uint16_t>(random.unit() * kGrassLayers);
+    blade.layer = static_cast<std::uint16_t>(look.layer * kGrassLayers);
     blade.root_m = vec3(root_position(surface_, roots_[id]) - middle);
     blade.ground_normal = surface_.triangles[roots_[id].triangle].normal;
-    return yaw;
   }
 
   const GrowthSurface& surface_;

@@ -10,6 +10,10 @@ namespace {
 // Length of the longest blade in the picture, pixels, from which on the blades of a class have its segments.
 constexpr std::array<float, GLOAM_GRASS_CLASSES> kClassPixels = {110.0f, 40.0f, 10.0f, 0.0f};
 
+// Length of a blade in the picture, pixels, below which it runs two steps at once: its tip moves by less than half a
+// pixel in a step at 1 m/s.
+constexpr float kStridePixels = 24.0f;
+
 /// Greatest key of distances up to distance_m.
 std::uint32_t key_at(float distance_m, float range_m) {
   return static_cast<std::uint32_t>(std::clamp(distance_m / range_m * 255.0f, 0.0f, 254.0f));
@@ -32,6 +36,7 @@ shaders::GrassLod grass_lod(const RenderView& view, const GrassKnobs& knobs, con
   lod.threshold = knobs.threshold;
   lod.cast_m = knobs.cast_distance_m;
   lod.cast_key = knobs.cast_distance_m > 0.0f ? key_at(knobs.cast_distance_m, range.range_m) : GLOAM_GRASS_CULLED;
+  lod.stride_px = knobs.far_steps ? kStridePixels : 0.0f;
   std::uint32_t first_index = 0;
   for (int i = 0; i < GLOAM_GRASS_CLASSES; ++i) {
     const auto at = static_cast<std::size_t>(i);

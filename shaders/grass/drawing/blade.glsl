@@ -11,11 +11,13 @@ layout(constant_id = 1) const uint kSegments = 15u;
 layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
 
 #include "shaders/grass/drawing/blade_shape.glsl"
+#include "shaders/grass/drawing/pixel_width.glsl"
 
 layout(location = 0) out vec3 out_normal;
 layout(location = 1) out vec3 out_binormal;
 layout(location = 2) out vec3 out_place;  // along, across, layer
 layout(location = 3) out vec3 out_relative;
+layout(location = 6) out vec2 out_coverage;  // PixelCorner::coverage; threshold of the blade
 #ifdef GLOAM_MOTION
 #include "shaders/grass/way_api.glsl"
 #include "shaders/render/motion_api.glsl"
@@ -30,15 +32,19 @@ layout(location = 5) out vec3 out_previous_clip;
 void main() {
   BladeVertex v =
       blade_vertex(gl_InstanceIndex, draws.class_first[kClass], draws.class_count[kClass], gl_VertexIndex, kSegments);
-  gl_Position = v.exists ? view.clip_from_relative * vec4(v.relative, 1.0) : vec4(2.0, 2.0, 0.0, 1.0);
+  vec4 clip = v.exists ? view.clip_from_relative * vec4(v.relative, 1.0) : vec4(2.0, 2.0, 0.0, 1.0);
+  PixelCorner corner = pixel_corner(view.clip_from_relative * vec4(v.middle, 1.0), clip,
+                                    view.clip_from_relative * vec4(v.ahead, 1.0), vec2(view.size));
+  gl_Position = v.exists ? corner.position : clip;
+  out_coverage = vec2(corner.coverage, v.threshold);
   out_normal = v.normal;
   out_binormal = v.binormal;
   out_place = vec3(v.along, v.across, float(v.layer));
   out_relative = v.relative;
 #ifdef GLOAM_MOTION
-  out_clip = gl_Position.xyw;
+  out_clip = clip.xyw;
   // A slave's pose in the frame before is taken to be that of this frame.
-  bool moves = steps.moves != 0u && stamps[v.knot / uint(GLOAM_GRASS_KNOTS)] == steps.now;
+  bool moves = steps.moves != 0u && steps.now - stamps[v.knot / uint(GLOAM_GRASS_KNOTS)] < steps.frame_steps;
   vec3 way = posed(poses[v.pose], unpack_way(vec2(knots[v.knot].w, previous_knots[v.knot].w)));
   vec3 before = v.relative - poses[v.pose].carried * draws.units_per_metre;
   out_previous_clip = previous_clip_at_rest(motion, moves ? before - way * draws.units_per_metre : before);

@@ -15,13 +15,18 @@ layout(set = 0, binding = 1, scalar) readonly buffer Poses { GrassPose poses[]; 
 layout(set = 0, binding = 2, scalar) readonly buffer Draws { GrassDraws draws; };
 layout(set = 0, binding = 3, scalar) readonly buffer Knots { vec4 knots[]; };
 
+const float kAhead_m = 0.01;
+
 struct BladeVertex {
   vec3 relative;  // camera-relative, in units
+  vec3 middle;    // of the stem
+  vec3 ahead;     // a point farther along the stem
   vec3 normal;
   vec3 binormal;
   float along;   // 0 root … 1 tip
   float across;  // −1 left, 1 right
   uint layer;
+  float threshold;  // of pixel_width.glsl
   uint pose;
   uint knot;  // in knots
   bool exists;
@@ -50,11 +55,15 @@ BladeVertex blade_vertex(uint instance, uint first, uint count, uint vertex, uin
   v.along = float(knot) / float(last);
   v.across = (corner & 1u) == 0u ? -1.0 : 1.0;
   float half_width_m = 0.5 * width.x * mix(1.0, width.y, v.along * v.along);
-  vec3 metric = posed(pose, at) + vec3(pose.row0.w, pose.row1.w, pose.row2.w) + side * (v.across * half_width_m);
+  vec3 middle = posed(pose, at) + vec3(pose.row0.w, pose.row1.w, pose.row2.w);
+  vec3 metric = middle + side * (v.across * half_width_m);
   v.relative = metric * draws.units_per_metre;
+  v.middle = middle * draws.units_per_metre;
+  v.ahead = (middle + tangent * kAhead_m) * draws.units_per_metre;
   v.binormal = side;
   v.normal = cross(side, tangent);
-  v.layer = pose.layer;
+  v.layer = pose.layer & 0xFFFFu;
+  v.threshold = float(pose.layer >> 16) / 65535.0;
   return v;
 }
 

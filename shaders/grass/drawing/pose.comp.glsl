@@ -59,6 +59,8 @@ void main() {
   pose.first_knot = first_knot;
   pose.side = pack_normal(side);
   pose.width = packHalf2x16(vec2(blade.width_m * factor, types[grass_type(packed_blade)].taper));
-  pose.layer = grass_layer(packed_blade);
+  // The golden ratio spreads the thresholds of any run of slots evenly.
+  uint threshold = uint(fract(0.6180339887 * (float(slot) + 0.5)) * 65535.0);
+  pose.layer = grass_layer(packed_blade) | threshold << 16;
   poses[i] = pose;
 }

@@ -6,6 +6,7 @@
 // that a blade between the eye and a light is not black, and the material is marked as subsurface for shadows.
 // Lighting, shadows and hemispheric ambient light are those of all surfaces of the geometry buffer.
 
+#include "shaders/grass/drawing/pixel_width.glsl"
 #include "shaders/render/gbuffer_api.glsl"
 #include "shaders/render/view_api.glsl"
 #ifdef GLOAM_MOTION
@@ -20,6 +21,7 @@ layout(location = 0) in vec3 in_normal;
 layout(location = 1) in vec3 in_binormal;
 layout(location = 2) in vec3 in_place;  // along, across, layer
 layout(location = 3) in vec3 in_relative;
+layout(location = 6) in vec2 in_coverage;  // coverage; threshold of the blade
 
 layout(location = 0) out vec4 out_base_color;
 layout(location = 1) out uvec4 out_normals;
@@ -45,6 +47,7 @@ vec3 layer_color(uint layer) {
 }
 
 void main() {
+  if (is_left_out(in_coverage.x, in_coverage.y)) discard;
   if (kClipped != 0u && is_clipped(view, in_relative)) discard;
   vec3 seen = to_viewer(view, in_relative);
   vec3 flat_normal = normalize(in_normal);

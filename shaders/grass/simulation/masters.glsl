@@ -19,6 +19,24 @@ layout(set = 0, binding = 6, scalar) readonly buffer Colliders { GrassCollider c
 layout(set = 0, binding = 7, scalar) buffer Knots { vec4 knots[]; };
 layout(set = 0, binding = 8, scalar) buffer PreviousKnots { vec4 previous_knots[]; };  // a step earlier
 
+uint stride_of(GrassMaster master) { return clamp(master.stride, 1u, uint(GLOAM_GRASS_MOST_STRIDE)); }
+
+// Steps of the master's stride that it runs, at least one if it runs any.
+uint turns_of(GrassMaster master) {
+  uint single = min(master.steps, steps.frame_steps + stride_of(master) - 1u);
+  return single == 0u ? 0u : max(single / stride_of(master), 1u);
+}
+
+// The frame's part, in its steps, that has passed when `turns` of the master's own steps are left; below 0 if they begin
+// before the frame.
+float passed_steps(uint turns, uint stride) { return float(steps.frame_steps) - float(turns * stride); }
+
+// A knot a step earlier is stored as if its last way had lasted one step, so a blade may change its stride.
+vec3 scaled_before(vec3 at, vec3 before, float scale) {
+  precise vec3 scaled = at - (at - before) * scale;
+  return scale == 1.0 ? before : scaled;
+}
+
 // Writes a knot. at, before: relative to the root, at the last step and a step earlier. fresh: the frame has put the
 // knot at rest, so it has no way.
 void store_knot(uint place, vec3 root, vec3 at, vec3 before, bool fresh) {

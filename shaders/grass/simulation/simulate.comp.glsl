@@ -32,6 +32,7 @@ shared BladeRod blade_rods[kMostThreads / kKnots];
 shared float segment_m[kMostThreads];  // length of the segment below
 shared vec3 rest_below[kMostThreads];
 shared vec3 rest_mirrored[kMostThreads];
+shared uint turns_of_blade[kMostThreads / kKnots];
 shared vec3 blade_normal[kMostThreads / kKnots];
 shared vec3 blade_forward[kMostThreads / kKnots];
 
@@ -105,9 +106,10 @@ vec3 held_by_joints(KnotRest r, BladeRod rod, uint lane, uint k, vec3 segment, v
   return has_joint ? direction_or(held, direction) : direction;
 }
 
-vec3 pushed_by_all(GrassPatchRow patch_row, vec3 root, vec3 normal, vec3 at, uint step, float most) {
-  float begin = float(step) / float(max(steps.frame_steps, 1u));
-  float end = float(step + 1u) / float(max(steps.frame_steps, 1u));
+vec3 pushed_by_all(GrassPatchRow patch_row, vec3 root, vec3 normal, vec3 at, float passed, float stride,
+                   float most) {
+  float begin = max(passed, 0.0) / float(max(steps.frame_steps, 1u));
+  float end = max(passed + stride, 0.0) / float(max(steps.frame_steps, 1u));
   precise vec3 in_patch = root + at;
   for (uint i = 0u; i < patch_row.colliders; ++i)
     in_patch = pushed(colliders[patch_row.first_collider + i], in_patch, normal, begin, end, most);
@@ -145,13 +147,17 @@ void main() {
   uint type = grass_type(row);
   vec2 stems[3] = {types[type].stem[max(k, 2u) - 2u], types[type].stem[max(k, 1u) - 1u], types[type].stem[k]};
   KnotRest rest = knot_rest(stem, stems, k);
-  BladeRod rod = blade_rod(stem, types[type].stiffness, types[type].damping, steps.step_s);
+  uint stride = stride_of(master), turns = turns_of(master);
+  float step_s = steps.step_s * float(stride);
+  BladeRod rod = blade_rod(stem, types[type].stiffness, types[type].damping, step_s);
 
   uint place = (patch_row.first_place + index) * kKnots + k;
   precise vec3 at = knots[place].xyz - stem.root;
   precise vec3 before = previous_knots[place].xyz - stem.root;
   bool is_finite = dot(at, at) < 1e12 && dot(before, before) < 1e12;  // false for NaN
   if (master.steps == GLOAM_GRASS_NO_STEP || !is_finite) at = before = grass_rest(stem, stems[2]);
+  before = scaled_before(at, before, float(stride));
+  turns_of_blade[lane / kKnots] = turns;
   if (k == 0u) {
     at = before = vec3(0.0);
     blade_normal[lane / kKnots] = stem.normal;
@@ -166,20 +172,21 @@ void main() {
   factor_rows(lane, blade_rods[min(lane, kBlades - 1u)]);
   barrier();
 
-  // A blade with fewer steps than the frame does the frame's last steps, but in the first turns of the loop. All loops
+  // A blade with fewer steps than the others does the frame's last steps, but in the first turns of the loop. All loops
   // test at their ends: lavapipe runs a loop's body once more for a test at its begin.
-  uint own_steps = min(master.steps, steps.frame_steps);
+  uint most_turns = 1u;
+  for (uint i = 0u; i < kBlades; ++i) most_turns = max(most_turns, turns_of_blade[i]);
   uint iterations = max(steps.iterations, 1u);
   precise GrassWind wind = steps.wind;
   precise vec3 wind_at = patch_row.wind_at + grass_turned(patch_row.turn, stem.root);
   vec3 pull = external_acceleration(patch_row);
   uint turn = 0u;
   do {
-    uint step = turn + steps.frame_steps - own_steps;
-    wind.drift = steps.wind.drift + steps.wind.velocity * (steps.step_s * float(step));
+    float passed = passed_steps(turns - min(turn, turns), stride);
+    wind.drift = steps.wind.drift + steps.wind.velocity * (steps.step_s * passed);
     vec3 air = grass_unturned(patch_row.turn, wind_velocity(wind, wind_at));
     precise vec3 next =
-        at + predicted(rod, k, at, before, knot_at[1][k == 0u ? lane : lane - 1u], air, pull, steps.step_s);
+        at + predicted(rod, k, at, before, knot_at[1][k == 0u ? lane : lane - 1u], air, pull, step_s);
     knot_at[0][lane] = k == 0u ? vec3(0.0) : next;
     barrier();
     precise vec3 free = next - knot_at[0][k == 0u ? lane : lane - 1u];
@@ -198,15 +205,16 @@ void main() {
     place_knots(lane);
     barrier();
     if (kColliders) {
-      knot_at[0][lane] = pushed_by_all(patch_row, stem.root, stem.normal, knot_at[0][lane], step, rod.reach_m);
+      knot_at[0][lane] = pushed_by_all(patch_row, stem.root, stem.normal, knot_at[0][lane], passed, float(stride),
+                                       rod.reach_m);
       barrier();
     }
     restore_lengths(lane);
     barrier();
-    bool runs = turn < own_steps;
+    bool runs = turn < turns;
     before = runs ? at : before;
     at = runs && k != 0u ? knot_at[1][lane] : at;
-  } while (++turn < steps.frame_steps);
+  } while (++turn < most_turns);
   if (!real) return;
-  store_knot(place, stem.root, at, before, master.steps == GLOAM_GRASS_NO_STEP);
+  store_knot(place, stem.root, at, scaled_before(at, before, 1.0 / float(stride)), master.steps == GLOAM_GRASS_NO_STEP);
 }

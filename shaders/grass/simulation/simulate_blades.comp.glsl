@@ -43,9 +43,9 @@ void bend_joints() {
   }
 }
 
-void push_out(GrassPatchRow patch_row, GrassStem stem, uint step) {
-  float begin = float(step) / float(max(steps.frame_steps, 1u));
-  float end = float(step + 1u) / float(max(steps.frame_steps, 1u));
+void push_out(GrassPatchRow patch_row, GrassStem stem, float passed, float stride) {
+  float begin = max(passed, 0.0) / float(max(steps.frame_steps, 1u));
+  float end = max(passed + stride, 0.0) / float(max(steps.frame_steps, 1u));
   if (patch_row.colliders == 0u) return;
   [[unroll]] for (int k = 1; k < kKnots; ++k) {
     precise vec3 knot = stem.root + next[k];
@@ -58,7 +58,7 @@ void push_out(GrassPatchRow patch_row, GrassStem stem, uint step) {
   }
 }
 
-void load_knots(GrassPatchRow patch_row, GrassStem stem, uint type, uint place, bool fresh) {
+void load_knots(GrassPatchRow patch_row, GrassStem stem, uint type, uint place, bool fresh, float stride) {
   [[unroll]] for (int k = 0; k < kKnots; ++k) {
     vec2 stems[3] = {types[type].stem[max(k, 2) - 2], types[type].stem[max(k, 1) - 1], types[type].stem[k]};
     rest[k] = knot_rest(stem, stems, uint(k));
@@ -67,26 +67,27 @@ void load_knots(GrassPatchRow patch_row, GrassStem stem, uint type, uint place, 
     bool is_valid = !fresh && dot(knot, knot) < 1e12 && dot(previous, previous) < 1e12;  // false for NaN
     vec3 still = grass_rest(stem, stems[2]);
     at[k] = is_valid ? knot : still;
-    before[k] = is_valid ? previous : still;
+    before[k] = is_valid ? scaled_before(knot, previous, stride) : still;
   }
   at[0] = before[0] = next[0] = segment[0] = vec3(0.0);
   direction[0] = stem.normal;
   rest[0].length_m = 0.0;
-  rod = blade_rod(stem, types[type].stiffness, types[type].damping, steps.step_s);
+  rod = blade_rod(stem, types[type].stiffness, types[type].damping, steps.step_s * stride);
   rows[0] = RodRow(0.0, 0.0);
   [[unroll]] for (int k = 1; k < kKnots; ++k) rows[k] = rod_row(rod, k, rows[k - 1]);
 }
 
-// One step: see simulate.comp.
-void advance(GrassPatchRow patch_row, GrassStem stem, uint step, bool runs) {
+// One step: see simulate.comp. passed: of the frame, in its steps.
+void advance(GrassPatchRow patch_row, GrassStem stem, float passed, float stride, bool runs) {
+  float step_s = steps.step_s * stride;
   uint iterations = max(steps.iterations, 1u);
   precise GrassWind wind = steps.wind;
   precise vec3 wind_at = patch_row.wind_at + grass_turned(patch_row.turn, stem.root);
   vec3 pull = external_acceleration(patch_row);
-  wind.drift = steps.wind.drift + steps.wind.velocity * (steps.step_s * float(step));
+  wind.drift = steps.wind.drift + steps.wind.velocity * (steps.step_s * passed);
   vec3 air = grass_unturned(patch_row.turn, wind_velocity(wind, wind_at));
   [[unroll]] for (int k = 1; k < kKnots; ++k) {
-    precise vec3 free = at[k] + predicted(rod, uint(k), at[k], before[k], at[k - 1], air, pull, steps.step_s);
+    precise vec3 free = at[k] + predicted(rod, uint(k), at[k], before[k], at[k - 1], air, pull, step_s);
     precise vec3 along = free - next[k - 1];
     next[k] = free;
     direction[k] = direction_or(along, rest_direction(rest[k]));
@@ -102,7 +103,7 @@ void advance(GrassPatchRow patch_row, GrassStem stem, uint step, bool runs) {
     precise vec3 held = next[k - 1] + rest[k].length_m * direction[k];
     next[k] = held;
   }
-  if (kColliders) push_out(patch_row, stem, step);
+  if (kColliders) push_out(patch_row, stem, passed, stride);
   vec3 from = vec3(0.0), along = stem.normal;
   float height = 0.0;
   [[unroll]] for (int k = 1; k < kKnots; ++k) {
@@ -121,13 +122,12 @@ void main() {
   GrassBladeRow row = blade_rows[patch_row.first_blade + index];
   GrassStem stem = grass_stem(patch_row, row);
   uint place = (patch_row.first_place + index) * uint(kKnots);
-  load_knots(patch_row, stem, grass_type(row), place, master.steps == GLOAM_GRASS_NO_STEP);
-
-  uint own_steps = min(master.steps, steps.frame_steps), turn = 0u;
-  do {
-    advance(patch_row, stem, turn + steps.frame_steps - own_steps, turn < own_steps);
-  } while (++turn < steps.frame_steps);
-
   bool fresh = master.steps == GLOAM_GRASS_NO_STEP;
-  [[unroll]] for (int k = 0; k < kKnots; ++k) store_knot(place + uint(k), stem.root, at[k], before[k], fresh);
+  uint stride = stride_of(master), turns = turns_of(master), turn = 0u;
+  load_knots(patch_row, stem, grass_type(row), place, fresh, float(stride));
+  do {
+    advance(patch_row, stem, passed_steps(turns - min(turn, turns), stride), float(stride), turn < turns);
+  } while (++turn < turns);
+  [[unroll]] for (int k = 0; k < kKnots; ++k)
+    store_knot(place + uint(k), stem.root, at[k], scaled_before(at[k], before[k], 1.0 / float(stride)), fresh);
 }

@@ -15,7 +15,7 @@
 // CPU twin: modules/grass/reference/slave_pose.
 
 const float kSlaveTurn = 0.5;       // radians, largest turn by speed
-const float kSlaveTurnSpeed = 0.5;  // m/s at which it is half as large
+const float kSlaveTurnSpeed = 1.5;  // m/s at which it is half as large
 const float kSlaveFadedBend = 0.6;  // way of the tip, over the length, at which the difference of yaws has no effect
 
 // A value in [-1, 1] of a slave. slot: of the slave in its patch.

@@ -134,20 +134,21 @@ TEST_F(GrassMotion, of_masters_is_that_of_their_knots) {
       const Compared compared = compare(stage, before);
       EXPECT_GT(compared.pixels, 500);
       EXPECT_GT(compared.longest, 0.2);
-      EXPECT_LT(compared.worst, 0.03);
+      // A blade that is widened to a pixel has the motion of its stem, half a pixel beside it.
+      EXPECT_LT(compared.worst, turn > 0.0 ? 0.08 : 0.04);
     }
 }
 
 TEST_F(GrassMotion, of_slaves_follows_their_masters) {
   GrassStage stage({.motion = true});
   blow(stage, "1:4");
-  stage.draw(camera(0.0), 4);
+  stage.draw(camera(0.0), 20);
   const Seen before = seen(stage);
   stage.draw(camera(0.0));
   const Compared compared = compare(stage, before);
   EXPECT_GT(compared.longest, 1.0);
   // The turn of a slave changes with the speed of its master.
-  EXPECT_LT(compared.worst, 0.5);
+  EXPECT_LT(compared.worst, 0.7);
   EXPECT_LT(compared.mean, 0.03);
 }
 

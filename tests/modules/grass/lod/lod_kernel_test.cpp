@@ -77,9 +77,11 @@ class GrassDetail : public KernelTest {
   [[nodiscard]] static Listed listed(const LodField& field, const shaders::GrassSteps& steps,
                                      const std::vector<std::uint32_t>& blades, std::uint32_t live,
                                      const std::vector<std::uint32_t>& stamps, std::uint32_t group_masters = 4,
-                                     std::uint32_t most_masters = ~0u) {
+                                     std::uint32_t most_masters = ~0u, float stride_px = 0.0f) {
     shaders::GrassLod lod{};
     lod.most_masters = most_masters;
+    lod.stride_px = stride_px;
+    lod.pixel_m = 0.0026f;
     shaders::GrassDraws draws{};
     draws.live = live;
     Kernel kernel(device(), shaders::grass::masters_comp, {{"kGroupMasters", group_masters}});
@@ -265,6 +267,41 @@ TEST_F(GrassDetail, each_master_of_a_live_blade_is_listed_once_and_no_other) {
       // A later view of the frame finds them simulated.
       EXPECT_EQ(listed(field, steps, blades, live, found.stamps, group).dispatch.masters, 0u);
     }
+  }
+}
+
+TEST_F(GrassDetail, masters_of_small_blades_run_several_steps_at_once_and_lose_none) {
+  LodField field = LodField::random(20, 5);
+  field.patches[0].colliders = 1;
+  std::vector<std::uint32_t> blades;
+  for (std::uint32_t p = 0; p < field.patches.size(); ++p)
+    for (std::uint32_t i = 0; i < field.patches[p].blades; ++i) blades.push_back(p * GLOAM_GRASS_PATCH_BLADES + i);
+  const auto live = static_cast<std::uint32_t>(blades.size());
+  for (const std::uint32_t frame_steps : {1u, 2u, 3u, 8u}) {
+    std::vector<std::uint32_t> stamps(field.places, 16);
+    std::map<std::uint32_t, std::uint32_t> steps_of, stride_of;
+    std::uint32_t now = 16;
+    for (std::uint32_t frame = 0; frame < 24; ++frame) {
+      now += frame_steps;
+      const shaders::GrassSteps steps{.step_s = 1.0f / 120.0f, .now = now, .frame_steps = frame_steps, .iterations = 3};
+      const Listed found = listed(field, steps, blades, live, stamps, 4, ~0u, 24.0f);
+      stamps = found.stamps;
+      for (const shaders::GrassMaster& master : found.masters) {
+        EXPECT_EQ(master.steps % master.stride, 0u);
+        if (master.blade >> 8 == 0) {
+          EXPECT_EQ(master.stride, 1u) << "near a collider";
+        }
+        steps_of[master.blade] += master.steps;
+        stride_of[master.blade] = master.stride;
+      }
+    }
+    std::map<std::uint32_t, std::size_t> strides;
+    for (const auto& [blade, count] : steps_of) {
+      ++strides[stride_of[blade]];
+      EXPECT_LE(now - 16 - count, stride_of[blade] - 1) << "stride " << stride_of[blade];
+    }
+    EXPECT_GT(strides[1], 0u);
+    EXPECT_GT(strides[2] + strides[4], steps_of.size() / 4) << frame_steps;
   }
 }
 

@@ -61,6 +61,62 @@ TEST_F(GrassSimulation, knots_follow_the_twin_for_seconds) {
   EXPECT_LT(twin.distance(input.knots), 2e-4);
 }
 
+TEST_F(GrassSimulation, a_far_master_runs_steps_of_its_stride_as_the_twin_does_and_may_change_it) {
+  for (const std::uint32_t frame_steps : {1u, 4u, 8u}) {
+    SCOPED_TRACE(frame_steps);
+    GrassInput input = field({40}, {0.15f, 0.3f, 0.5f}, vec3(5.0f, 0.0f, 2.0f));
+    SimulateTwin twin(input);
+    const SimulateKernel kernel(device());
+    input.steps.frame_steps = frame_steps;
+    double path_s = 0.0;
+    for (const std::uint32_t stride : {1u, 1u, 4u, 2u, 2u, 1u, 4u}) {
+      for (shaders::GrassMaster& master : input.masters) master.stride = stride;
+      shaders::GrassSteps steps = input.steps;
+      const std::uint32_t turns = std::max(frame_steps / stride, 1u);
+      const float before = static_cast<float>(frame_steps) - static_cast<float>(turns * stride);
+      steps.wind.drift += steps.wind.velocity * (steps.step_s * before);
+      steps.step_s *= static_cast<float>(stride);
+      steps.frame_steps = turns;
+      for (BladeState& state : twin.states)
+        for (std::size_t k = 0; k < kGrassKnots; ++k)
+          state.before[k] = state.at[k] - (state.at[k] - state.before[k]) * static_cast<double>(stride);
+      twin.advance(steps);
+      for (BladeState& state : twin.states)
+        for (std::size_t k = 0; k < kGrassKnots; ++k)
+          state.before[k] = state.at[k] - (state.at[k] - state.before[k]) / static_cast<double>(stride);
+      // A master that waits for the steps of its stride runs them all in one frame.
+      for (shaders::GrassMaster& master : input.masters)
+        if (master.steps != GLOAM_GRASS_NO_STEP) master.steps = std::max(frame_steps, stride);
+      kernel.advance(input, 1);
+      path_s += static_cast<double>(steps.step_s) * turns;
+      EXPECT_GE(share_within(twin, input.knots, 1e-4), 0.95) << "after " << path_s << " s, stride " << stride;
+      expect_sound(twin, input.knots);
+    }
+  }
+}
+
+TEST_F(GrassSimulation, blades_of_every_stride_swing_alike) {
+  std::vector<vec4> tips[3];
+  for (int i = 0; i < 3; ++i) {
+    GrassInput input = field({40}, {0.2f, 0.3f, 0.5f}, vec3(5.0f, 0.0f, 2.0f));
+    input.steps.frame_steps = 4;
+    for (shaders::GrassMaster& master : input.masters) master.stride = 1u << i;
+    const SimulateKernel kernel(device());
+    for (int frame = 0; frame < 60; ++frame) {
+      kernel.advance(input, 1);
+      input.steps.wind.drift += input.steps.wind.velocity * (4.0f / 120.0f);
+    }
+    for (std::size_t k = 15; k < input.knots.size(); k += 16) tips[i].push_back(input.knots[k]);
+  }
+  for (int i = 1; i < 3; ++i) {
+    double mean = 0.0;
+    for (std::size_t b = 0; b < tips[0].size(); ++b)
+      mean += static_cast<double>(glm::length(vec3(tips[i][b]) - vec3(tips[0][b]))) / static_cast<double>(tips[0].size());
+    std::printf("stride %d: tips %.2f mm from those of stride 1\n", 1 << i, 1e3 * mean);
+    EXPECT_LT(mean, 0.005);
+  }
+}
+
 // Hard case: grass.blades_0, grass.not_64, grass.repeatable
 TEST_F(GrassSimulation, any_number_of_masters_and_any_size_of_workgroups_gives_the_same_knots) {
   for (const std::uint32_t count : {0u, 1u, 3u, 4u, 5u, 63u, 64u, 65u, 200u}) {

@@ -76,6 +76,7 @@ class GrassStage {
     made.modules.push_back(std::make_unique<GuestModule>(guest_, options.motion));
     renderer = value_of(Renderer::create(std::move(made)));
     if (!options.shadows) set("shadows.mode", "off");
+    set("grass.far_steps", "one");  // small pictures would show all blades as far ones
     renderer->prepare_world(world);
     run_at(0.0);
     world.resource<SceneEnvironment>() = {

@@ -113,7 +113,14 @@ struct GrassPicture {
   return picture;
 }
 
-/// Every pixel of grass must show a point on a blade. Rows are packed, which moves a blade by up to `slack_m`.
+/// Size of a pixel at a point, metres.
+[[nodiscard]] inline double pixel_at(const RenderView& view, const dvec3& point) {
+  const double distance = view.camera.orthographic ? 1.0 : glm::length(point - view.position);
+  return distance * 2.0 / (std::abs(static_cast<double>(view.clip_from_view[1][1])) * view.height);
+}
+
+/// Every pixel of grass must show a point on a blade. Rows are packed, which moves a blade by up to `slack_m`. Blades
+/// narrower than a pixel are drawn one pixel wide.
 inline void expect_grass_on_stems(const GrassPicture& picture, const std::vector<Stem>& stems, double widened = 1.0,
                                   double slack_m = 0.004) {
   std::size_t astray = 0;
@@ -122,7 +129,9 @@ inline void expect_grass_on_stems(const GrassPicture& picture, const std::vector
     if (!picture.is_grass(i)) continue;
     const dvec3 point = picture.world(i);
     double best = std::numeric_limits<double>::infinity();
-    for (const Stem& stem : stems) best = std::min(best, stem.distance_to(point) - 0.5 * widened * stem.width_m);
+    const double pixel_m = pixel_at(picture.with.view, point);
+    for (const Stem& stem : stems)
+      best = std::min(best, stem.distance_to(point) - 0.5 * std::max(widened * stem.width_m, 1.06 * pixel_m));
     farthest = std::max(farthest, best);
     astray += best <= slack_m ? 0 : 1;
   }
@@ -131,6 +140,7 @@ inline void expect_grass_on_stems(const GrassPicture& picture, const std::vector
 }
 
 /// Pixels whose centre the middle of a blade's lower third covers, and those of them that show something farther away.
+/// Without the places that are seen so nearly edge-on that they are narrower than a pixel: some of them are left out.
 struct MissedPixels {
   std::size_t covered = 0;
   std::size_t missed = 0;
@@ -148,6 +158,9 @@ struct MissedPixels {
       const dvec3 low = stem.at[k - 1] - view.position, high = stem.at[k] - view.position;
       const dvec3 half = 0.5 * kMiddle * stem.width_m * stem.side;
       const dvec3 corners[4] = {low - half, low + half, high + half, high - half};
+      const glm::dvec2 along = glm::normalize(pixel_of(high) - pixel_of(low));
+      const glm::dvec2 across = (pixel_of(low + half) - pixel_of(low - half)) / kMiddle;
+      if (std::abs(across.x * along.y - across.y * along.x) < 1.3) continue;
       glm::dvec2 from(1e9), to(-1e9);
       for (const dvec3& corner : corners) {
         from = glm::min(from, pixel_of(corner));
