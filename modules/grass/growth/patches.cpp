@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <vector>
 
 #include "engine/core/assert.h"
 #include "modules/grass/growth/random.h"
@@ -16,6 +17,7 @@ namespace gloam {
 namespace {
 
 constexpr std::uint32_t kBladesOfPatch = GLOAM_GRASS_PATCH_BLADES;
+constexpr std::uint32_t kCellGroups = 4;  // groups that share a cell of neighbours
 constexpr double kFullTurn = 2.0 * 3.14159265358979323846;
 constexpr double kSlaveYaw = 0.6;  // radians, greatest difference from the master
 constexpr double kWidthVariation = 0.25;
@@ -40,14 +42,22 @@ void spread_order(std::uint32_t count, std::array<std::uint32_t, kBladesOfPatch>
   for (std::uint32_t i = 0; i < count; ++i) order[i] = static_cast<std::uint32_t>(keys[i]);
 }
 
-/// Gives master order[i] + turn and its slaves the rank (i + shift) / masters: where the level of detail leaves blades
-/// out, it leaves out whole groups, so the share of masters stays. turn: any; else the groups of a blade less, which are
-/// evenly spaced, would be the first in each patch.
+/// Gives each master and its slaves one rank: where the level of detail leaves blades out, it leaves out whole groups, so
+/// the share of masters stays. Each cell keeps its last group until all others have one only. turn: any; which group of
+/// a cell is the last.
 void set_ranks(std::span<GrassBlade> blades, std::uint32_t masters, double shift, std::uint32_t turn) {
   std::array<std::uint32_t, kBladesOfPatch> order{};
-  spread_order(masters, order);
-  for (std::uint32_t i = 0; i < masters; ++i) 
-    blades[(order[i] + turn) % masters].rank = static_cast<float>((i + shift) / masters);
+  const std::uint32_t cells = (masters + kCellGroups - 1) / kCellGroups;
+  spread_order(cells, order);
+  std::uint32_t next = 0;
+  for (std::uint32_t level = 0; level < kCellGroups; ++level)
+    for (std::uint32_t i = 0; i < cells; ++i) {
+      const std::uint32_t cell = (order[i] + turn) % cells;
+      const std::uint32_t groups = std::min(kCellGroups, masters - cell * kCellGroups);
+      if (level >= groups) continue;
+      const std::uint32_t master = cell * kCellGroups + (level + turn + cell) % groups;
+      blades[master].rank = static_cast<float>((next++ + shift) / masters);
+    }
   const std::uint32_t first_slot = blades.front().slot;
   for (GrassBlade& slave : blades.subspan(masters)) slave.rank = blades[slave.master - first_slot].rank;
 }
@@ -67,7 +77,7 @@ class PatchFiller {
     patch.max_distance_m = source_.values.max_distance_m;
     patch.blades = count;
     patch.masters = (count + source_.slaves_per_master) / (source_.slaves_per_master + 1);
-    split_by_space(items, patch.masters);
+    split_by_space(items, patch.masters, kCellGroups);
     const dvec3 middle = middle_of(items);
     patch.origin = surface_.origin + middle;
     BladeRandom rank_random(source_.values.seed, items.front().id, kRankNumbers);
@@ -76,15 +86,22 @@ class PatchFiller {
 
     const std::uint32_t first_slot = blades.front().slot;
     std::uint32_t next_slave = patch.masters;
+    std::vector<SpatialItem> members;
     for (std::uint32_t group = 0; group < patch.masters; ++group) {
-      const std::uint32_t begin = group_begin(count, patch.masters, group);
-      const std::uint32_t end = group_begin(count, patch.masters, group + 1);
-      const std::span<const SpatialItem> members = items.subspan(begin, end - begin);
+      // The blades of a cell are dealt to its groups in turn, so that each group covers the cell evenly.
+      const std::uint32_t cell = group - group % kCellGroups;
+      const std::uint32_t groups = std::min(kCellGroups, patch.masters - cell);
+      const std::uint32_t begin = group_begin(count, patch.masters, cell);
+      const std::uint32_t end = group_begin(count, patch.masters, cell + groups);
+      if (group == cell) split_by_space(items.subspan(begin, end - begin), end - begin);
+      members.clear();
+      for (std::uint32_t i = begin + (group - cell); i < end; i += groups) members.push_back(items[i]);
       const std::size_t master = central(members);
       blades[group] = make_master(members[master].id, first_slot + group, middle);
       for (std::size_t i = 0; i < members.size(); ++i) {
         if (i == master) continue;
-        blades[next_slave] = make_slave(members[i].id, members[master].id, first_slot + next_slave, middle, blades[group]);
+        blades[next_slave] =
+            make_slave(members[i].id, members[master].id, first_slot + next_slave, middle, blades[group]);
         ++next_slave;
       }
     }

@@ -19,13 +19,17 @@ struct GroupRange {
 
 class SpatialDivision {
  public:
-  SpatialDivision(std::span<SpatialItem> items, std::uint32_t groups) : items_(items), groups_(groups) {}
+  SpatialDivision(std::span<SpatialItem> items, std::uint32_t groups, std::uint32_t unit = 1)
+      : items_(items), groups_(groups), unit_(unit) {}
 
   [[nodiscard]] GroupRange whole() const { return {0, groups_}; }
 
   /// Moves the items of the range's first half of groups before those of the second; returns where the second begins.
   [[nodiscard]] std::uint32_t halve(GroupRange range) const {
-    const std::uint32_t middle = range.first + (range.end - range.first) / 2;
+    const std::uint32_t half = (range.end - range.first) / 2;
+    const bool divides_unit = range.end - range.first <= unit_;
+    const std::uint32_t middle =
+        range.first + (divides_unit ? half : std::max((half + unit_ / 2) / unit_ * unit_, unit_));
     const std::span<SpatialItem> all = items_of(range);
     Aabb box;
     for (const SpatialItem& item : all) box.grow(item.at);
@@ -58,13 +62,14 @@ class SpatialDivision {
 
   std::span<SpatialItem> items_;
   std::uint32_t groups_;
+  std::uint32_t unit_;
 };
 
 }  // namespace
 
-void split_by_space(std::span<SpatialItem> items, std::uint32_t groups) {
+void split_by_space(std::span<SpatialItem> items, std::uint32_t groups, std::uint32_t unit) {
   GLOAM_ASSERT(groups >= 1 && groups <= items.size(), "a spatial group has at least one item");
-  const SpatialDivision division(items, groups);
+  const SpatialDivision division(items, groups, unit);
   division.divide(division.whole());
 }
 

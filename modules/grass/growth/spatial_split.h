@@ -23,8 +23,8 @@ struct SpatialItem {
 
 /// Orders the items so that each of `groups` (≤ items.size(), ≥ 1) consecutive groups lies in a compact box: a k-d tree
 /// that halves along the longest axis. Neighbouring groups have neighbouring numbers. A group's items are ordered by
-/// id.
-void split_by_space(std::span<SpatialItem> items, std::uint32_t groups);
+/// id. unit: each run of this many groups, from a multiple of it on, lies in a compact box, too.
+void split_by_space(std::span<SpatialItem> items, std::uint32_t groups, std::uint32_t unit = 1);
 void split_by_space(std::span<SpatialItem> items, std::uint32_t groups, JobExecutor& jobs);
 
 }  // namespace gloam

@@ -59,8 +59,9 @@ void main() {
   pose.first_knot = first_knot;
   pose.side = pack_normal(side);
   pose.width = packHalf2x16(vec2(blade.width_m * factor, types[grass_type(packed_blade)].taper));
-  // The golden ratio spreads the thresholds of any run of slots evenly.
-  uint threshold = uint(fract(0.6180339887 * (float(slot) + 0.5)) * 65535.0);
+  // The golden ratio spreads the thresholds of any run of slots evenly; each patch begins elsewhere.
+  uint begin = blade_rows[row.first_blade].root_xz * 0x9E3779B1u >> 16;
+  uint threshold = (slot * 40503u + begin) & 0xFFFFu;
   pose.layer = grass_layer(packed_blade) | threshold << 16;
   poses[i] = pose;
 }

@@ -67,7 +67,7 @@ TEST_F(MovingGroundOnGpu, a_lawn_moves_as_if_the_one_beside_it_did_not) {
   }
   std::vector<dvec3> before = knots_of(moving, beside[0]);
   const std::vector<dvec3> first = before;
-  ASSERT_GT(before.size(), 16u * 50u);
+  ASSERT_GE(before.size(), 16u * 10u);
   for (int frame = 1; frame <= 40; ++frame) {
     dmat4 pose = turned(0.05 * frame, dvec3(0.0, 1.0, 0.0), dvec3(0.0, 0.01 * frame, 0.0));
     if (frame > 20) pose = glm::scale(pose, dvec3(1.0 + 0.03 * (frame - 20)));  // it is planted anew a few times
