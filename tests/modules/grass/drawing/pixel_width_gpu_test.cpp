@@ -40,7 +40,7 @@ std::array<double, kParts> covered(GrassStage& stage, const ViewSettings& view) 
 
 TEST_F(GrassPixelWidth, blades_cover_along_their_length_as_much_as_with_many_samples) {
   constexpr int kShifts = 6;
-  const int lawns = scaled(12);
+  const int lawns = scaled(20);
   for (const double distance_m : {2.0, 5.0, 10.0, 20.0}) {
     std::array<double, kParts> found{}, wanted{};
     for (int seed = 1; seed <= lawns; ++seed) {
@@ -49,8 +49,8 @@ TEST_F(GrassPixelWidth, blades_cover_along_their_length_as_much_as_with_many_sam
       values.width_m = 0.008f;
       values.seed = static_cast<std::uint32_t>(seed);
       // So sparse that few blades are before another.
-      const auto half_m = static_cast<float>(0.2 * distance_m);
-      stage.lawn(half_m, static_cast<std::uint32_t>(10.0 * distance_m * std::sqrt(distance_m)), dvec3(0.0), values);
+      const auto half_m = static_cast<float>(0.12 * distance_m);
+      stage.lawn(half_m, static_cast<std::uint32_t>(6.0 * distance_m * std::sqrt(distance_m)), dvec3(0.0), values);
       stage.wind(vec3(4.0f, 0.0f, 1.0f), 0.3f);
       stage.set("grass.lod_pixels", "0");
       stage.set("grass.segments", "full");
@@ -59,7 +59,7 @@ TEST_F(GrassPixelWidth, blades_cover_along_their_length_as_much_as_with_many_sam
       stage.run_at(0.0);
       for (int shift = 0; shift < kShifts; ++shift) {
         ViewSettings view = view_at(distance_m, 1);
-        view.world_from_camera[3].x += 0.0054 * shift * distance_m;
+        view.world_from_camera[3].x += 0.0027 * shift * distance_m;
         const auto some = covered(stage, view);
         for (std::size_t i = 0; i < kParts; ++i) found[i] += some[i] / kShifts;
       }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -132,6 +134,61 @@ TEST_F(GrassSimulationHard, knots_leave_a_collider_as_those_of_the_twin_do) {
   add_collider(input, capsule);
   add_collider(input, box(vec3(1.2f, 0.1f, 0.7f), vec3(0.4f, 0.35f, 0.3f)));
   expect_sound_frames(input, 1, 8);
+}
+
+/// Least distance from the ball's centre, which moves from `begin` to `end`, to a knot: by many places of the ball.
+double nearest_pass(const BladeModel& blade, dvec3 begin, dvec3 end) {
+  double least = 1e9;
+  constexpr int kPlaces = 4000;
+  for (int i = 0; i <= kPlaces; ++i) {
+    const dvec3 at = glm::mix(begin, end, static_cast<double>(i) / kPlaces);
+    for (std::size_t k = 1; k < kGrassKnots; ++k) least = std::min(least, glm::length(blade.root + blade.rest[k] - at));
+  }
+  return least;
+}
+
+// Hard case: grass.collider_100_m
+TEST_F(GrassSimulationHard, a_ball_moves_every_blade_in_its_way_however_fast_it_is) {
+  const dvec3 begin(-2.6, 0.15, -0.4), end(2.6, 0.15, 0.5);
+  constexpr double kRadius_m = 0.12;
+  for (const double speed : {20.0, 80.0, 160.0, 400.0})
+    for (const std::uint32_t steps : {1u, 2u, 4u}) {
+      SCOPED_TRACE(testing::Message() << speed << " m/s, " << steps << " steps a frame");
+      GrassInput input = field(240, {0.3f, 0.5f});
+      input.steps.frame_steps = steps;
+      add_collider(input, sphere(vec3(begin), vec3(begin), static_cast<float>(kRadius_m)));
+      GrassInput still = input;
+      still.colliders.clear();
+      still.patches[0].colliders = 0;
+      const SimulateTwin twin(input);
+      const SimulateKernel kernel(device());
+      std::vector<double> moved(twin.models.size());
+      const double frame_m = speed * steps / 120.0;
+      const int frames = static_cast<int>(std::ceil(glm::length(end - begin) / frame_m));
+      for (int frame = 0; frame < frames + 2; ++frame) {
+        const auto place = [&](int f) { return vec3(glm::mix(begin, end, std::min(static_cast<double>(f) / frames, 1.0))); };
+        input.colliders[0] = sphere(place(frame), place(frame + 1), static_cast<float>(kRadius_m));
+        kernel.advance(input, 1);
+        kernel.advance(still, 1);
+        for (std::size_t b = 0; b < moved.size(); ++b)
+          for (std::size_t k = 0; k < kGrassKnots; ++k) {
+            const std::size_t at = twin.knot_index(b, k);
+            moved[b] = std::max(moved[b], static_cast<double>(glm::length(vec3(input.knots[at]) - vec3(still.knots[at]))));
+          }
+      }
+      std::size_t hit = 0, stood = 0, touched = 0;
+      for (std::size_t b = 0; b < moved.size(); ++b) {
+        const double nearest = nearest_pass(twin.models[b], begin, end);
+        if (nearest < kRadius_m - 0.03) {  // blades have bent a little under their weight
+          ++hit;
+          stood += moved[b] < 0.005 ? 1 : 0;
+        }
+        touched += nearest > kRadius_m + 0.1 && moved[b] > 1e-4 ? 1 : 0;
+      }
+      EXPECT_GT(hit, 10u);
+      EXPECT_EQ(stood, 0u) << "of " << hit;
+      EXPECT_EQ(touched, 0u) << "blades beside its way";
+    }
 }
 
 // Hard case: grass.collider_on_root
