@@ -1,14 +1,17 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "modules/grass/field/grow.h"
 #include "sandbox/bench/grass/case.h"
 #include "sandbox/bench/harness/benches.h"
 #include "sandbox/bench/harness/context.h"
@@ -128,11 +131,101 @@ void add_live_rows(BenchRegistry& registry) {
   }
 }
 
+/// Frames of the usual view with two values of a knob in turn.
+struct TwoCosts {
+  std::array<std::vector<double>, 2> simulation_ns;
+  std::array<std::uint64_t, 2> hashes{};
+};
+
+/// Masters by live blades with the level of detail on: the simulation of 1:4 over that of 1:1.
+Result<TwoCosts> measure_masters_in_detail(BenchContext& context) {
+  const auto grass = GrassCase::open(context, "near", kGrassCostWidth, kGrassCostHeight);
+  if (!grass) return grass.error();
+  (*grass)->remove_colliders();
+  TwoCosts costs;
+  constexpr std::array<const char*, 2> kMasters = {"1:4", "1:1"};
+  for (int round = -1; round < kGrassCostFrames; ++round)
+    for (std::size_t i = 0; i < kMasters.size(); ++i) {
+      GLOAM_TRY((*grass)->set("grass.masters", kMasters[i]));
+      auto cost = measure_grass_cost(**grass, 2, 2);  // grown anew; then two frames, so that far masters step, too
+      if (!cost) return cost.error();
+      costs.hashes[i] = cost->hash;
+      if (round >= 0) costs.simulation_ns[i].push_back(cost->simulation_ns[0] + cost->simulation_ns[1]);
+    }
+  return costs;
+}
+
+/// The greatest share of masters among the live blades of some views: those that the view simulates.
+Result<BenchValue> measure_masters_over_live(BenchContext& context) {
+  double greatest = 0.0;
+  std::uint64_t hash = 0;
+  for (const char* camera : {"near", "far", "ground", "above"}) {
+    const auto grass = GrassCase::open(context, camera, kGrassCostWidth, kGrassCostHeight);
+    if (!grass) return grass.error();
+    const auto reading = (*grass)->draw_and_read(kGrassFrame_s);
+    if (!reading) return reading.error();
+    const GrassField& field = (*grass)->session().world.resource<GrassField>();
+    std::set<std::uint32_t> masters;
+    for (const std::uint32_t sorted : reading->blades) {
+      const std::uint32_t patch = reading->patches[sorted / GLOAM_GRASS_PATCH_BLADES].patch;
+      masters.insert(field.blades[patch * GLOAM_GRASS_PATCH_BLADES + sorted % GLOAM_GRASS_PATCH_BLADES].master);
+    }
+    const auto live = static_cast<double>(reading->blades.size());
+    if (live > 0.0) greatest = std::max(greatest, static_cast<double>(masters.size()) / live);
+    hash ^= hash_of_poses(*reading);
+  }
+  BenchValue value = single_value(greatest, hash);
+  value.scene = kMeadow;
+  return value;
+}
+
+void add_detail_rows(BenchRegistry& registry) {
+  BenchRow over;
+  over.id = "grass.masters_1_4_over_full.lod";
+  over.unit = "ratio";
+  over.bar = 0.30;
+  over.run = [](BenchContext& context) -> Result<BenchValue> {
+    const auto costs = measure_masters_in_detail(context);
+    if (!costs) return costs.error();
+    BenchValue value = ratio_of(costs->simulation_ns[0], costs->simulation_ns[1], costs->hashes[0]);
+    value.scene = kMeadow;
+    return value;
+  };
+  registry.add(std::move(over));
+  BenchRow share;
+  share.id = "grass.lod.masters_over_live";
+  share.unit = "ratio";
+  share.bar = 0.25;
+  share.run = &measure_masters_over_live;
+  registry.add(std::move(share));
+}
+
+/// The simulation with one value of a knob, in the usual frame.
+void add_setting_row(BenchRegistry& registry, const std::string& knob, const std::string& value) {
+  BenchRow row;
+  row.id = knob + "." + value + ".simulation_ms";
+  row.unit = "ms";
+  row.run = [knob, value](BenchContext& context) -> Result<BenchValue> {
+    const auto grass = GrassCase::open(context, "near", kGrassCostWidth, kGrassCostHeight);
+    if (!grass) return grass.error();
+    GLOAM_TRY((*grass)->set(knob, value));
+    const auto cost = measure_grass_cost(**grass, kGrassCostWarmUp, kGrassCostFrames);
+    if (!cost) return cost.error();
+    BenchValue result = per_item(cost->simulation_ns, kNsPerMs, cost->hash);
+    result.scene = kMeadow;
+    return result;
+  };
+  registry.add(std::move(row));
+}
+
 }  // namespace
 
 void add_grass_cost_benches(BenchRegistry& registry) {
   add_grass_frame_rows(registry);
   add_live_rows(registry);
+  add_detail_rows(registry);
+  for (const char* value : {"indirect", "readback"}) add_setting_row(registry, "grass.dispatch", value);
+  for (const char* value : {"32", "64", "128", "blade"}) add_setting_row(registry, "grass.group", value);
 }
 
 }  // namespace gloam

@@ -50,6 +50,7 @@ Result<std::unique_ptr<GrassCase>> open_case(BenchContext& context) {
   if (!grass) return grass.error();
   (*grass)->remove_colliders();
   GLOAM_TRY((*grass)->set("grass.lod_pixels", "0"));
+  GLOAM_TRY((*grass)->set("grass.far_steps", "one"));
   return grass;
 }
 

@@ -165,6 +165,8 @@ TEST(BenchRegistry, has_the_rows_of_grass) {
   const BenchRegistry registry = make_bench_registry();
   for (const BenchRow& each : registry.rows()) rows[each.id] = each;
   EXPECT_EQ(rows["grass.masters_1_4_over_full"].bar, 0.30);
+  EXPECT_EQ(rows["grass.masters_1_4_over_full.lod"].bar, 0.30);
+  EXPECT_EQ(rows["grass.lod.masters_over_live"].bar, 0.25);
   EXPECT_EQ(rows["grass.field_x10_same_live"].bar, 1.3);
   EXPECT_EQ(rows["grass.field_1m_over_100k"].bar, 1.3);
   EXPECT_EQ(rows["grass.sort_over_std_sort"].bar, 10.0);
@@ -176,7 +178,7 @@ TEST(BenchRegistry, has_the_rows_of_grass) {
         "iterations.8.tip_error_mean_mm", "iterations.8.tip_error_p99_mm", "frame.simulation_ms", "frame.lod_ms",
         "frame.drawing_ms", "frame.live", "cost.live_1k.sort_ms", "cost.live_10k.lod_ms",
         "cost.live_100k.simulation_ms", "cost.live_1m.drawing_ms", "field_x10.drawing_over_same_live", "walk.flip",
-        "coverage_difference"})
+        "coverage_difference", "dispatch.readback.simulation_ms", "group.128.simulation_ms"})
     EXPECT_TRUE(rows.contains("grass." + std::string(id))) << id;
 }
 
