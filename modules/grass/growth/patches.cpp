@@ -19,10 +19,10 @@ namespace {
 constexpr std::uint32_t kBladesOfPatch = GLOAM_GRASS_PATCH_BLADES;
 constexpr std::uint32_t kCellGroups = 4;  // groups that share a cell of neighbours
 constexpr double kFullTurn = 2.0 * 3.14159265358979323846;
-constexpr double kSlaveYaw = 0.6;  // radians, greatest difference from the master
+constexpr double kSlaveYaw = 0.1;  // radians, greatest difference from the master
 constexpr double kWidthVariation = 0.25;
 constexpr double kStoutVariation = 0.1;  // of the width over the length, among masters
-constexpr double kAlike = 0.9;           // correlation of the lengths of a master and its slaves
+constexpr double kAlike = 0.98;           // correlation of the lengths of a master and its slaves
 constexpr double kShortest = 0.25;  // times the mean length
 constexpr double kLongest = 2.0;
 

@@ -8,7 +8,7 @@
 namespace gloam {
 namespace {
 
-constexpr double kSlaveTurn = 0.5;
+constexpr double kSlaveTurn = 0.3;
 constexpr double kSlaveTurnSpeed = 1.5;
 constexpr double kSlaveFadedBend = 0.6;
 constexpr double kCircle = 6.283185307179586;

@@ -14,7 +14,7 @@
 // 3. The ratio of their lengths.
 // CPU twin: modules/grass/reference/slave_pose.
 
-const float kSlaveTurn = 0.5;       // radians, largest turn by speed
+const float kSlaveTurn = 0.3;       // radians, largest turn by speed
 const float kSlaveTurnSpeed = 1.5;  // m/s at which it is half as large
 const float kSlaveFadedBend = 0.6;  // way of the tip, over the length, at which the difference of yaws has no effect
 
