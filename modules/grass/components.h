@@ -17,7 +17,7 @@ struct GrassSurface {
   std::uint32_t seed = 1;
   vec2 height_m = vec2(0.3f, 0.06f);  ///< mean, deviation
   float width_m = 0.006f;
-  float damping = 1.5f;  ///< of the blades' swings, 1/s: they fall to 1/e in 1 s over damping
+  float damping = 1.5f;          ///< of the blades' swings, 1/s: they fall to 1/e in 1 s over damping
   float max_distance_m = 40.0f;  ///< quantisation range of the LOD
   std::uint32_t types = 0;       ///< blade file in SceneStrings; 0: the built-in five types
 };
@@ -46,8 +46,8 @@ struct GrassBlade {
   vec3 ground_normal = vec3(0.0f, 1.0f, 0.0f);  ///< unit; no knot goes below the plane through the root
   float yaw = 0.0f;  ///< radians, around the ground normal: direction in which the stem leans
   float length_m = 0.3f;
-  float width_m = 0.006f;    ///< at the root
-  float rank = 0.0f;         ///< 0…1; where the LOD thins the field, blades of a high rank go first
+  float width_m = 0.006f;  ///< at the root
+  float rank = 0.0f;  ///< 0…1; where the LOD thins the field, blades of a high rank go first; a slave has its master's
   std::uint32_t slot = 0;    ///< 256 · index of the patch + index in the patch; its place in GPU buffers
   std::uint32_t master = 0;  ///< slot of the blade whose knots it copies, in the same patch; a master's own slot
   std::uint16_t type = 0;    ///< of the patch's blade types, < 16

@@ -88,14 +88,14 @@ inline constexpr ChoiceKnob<bool> kGrassReadback{
         "the CPU (readback)",
     .choices = {{"indirect", false}, {"readback", true}},
     .exact = false};
-inline constexpr ChoiceKnob<bool> kGrassFarSteps{
-    .name = "grass.far_steps",
-    .meaning =
-        "steps of the simulation for blades that are small in the picture: each by itself (one), or two or four at once "
-        "(several)",
-    .choices = {{"several", true}, {"one", false}},
-    .default_value = true,
-    .exact = false};
+inline constexpr ChoiceKnob<bool> kGrassFarSteps{.name = "grass.far_steps",
+                                                 .meaning =
+                                                     "steps of the simulation for blades that are small in the "
+                                                     "picture: each by itself (one), or two or four at once "
+                                                     "(several)",
+                                                 .choices = {{"several", true}, {"one", false}},
+                                                 .default_value = true,
+                                                 .exact = false};
 inline constexpr EnumKnob<SimulationThreads> kGrassThreads{
     .name = "grass.group",
     .meaning =

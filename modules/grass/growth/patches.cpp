@@ -22,8 +22,8 @@ constexpr double kFullTurn = 2.0 * 3.14159265358979323846;
 constexpr double kSlaveYaw = 0.1;  // radians, greatest difference from the master
 constexpr double kWidthVariation = 0.25;
 constexpr double kStoutVariation = 0.1;  // of the width over the length, among masters
-constexpr double kAlike = 0.98;           // correlation of the lengths of a master and its slaves
-constexpr double kShortest = 0.25;  // times the mean length
+constexpr double kAlike = 0.98;          // correlation of the lengths of a master and its slaves
+constexpr double kShortest = 0.25;       // times the mean length
 constexpr double kLongest = 2.0;
 
 /// Purposes of random numbers.
@@ -42,9 +42,9 @@ void spread_order(std::uint32_t count, std::array<std::uint32_t, kBladesOfPatch>
   for (std::uint32_t i = 0; i < count; ++i) order[i] = static_cast<std::uint32_t>(keys[i]);
 }
 
-/// Gives each master and its slaves one rank: where the level of detail leaves blades out, it leaves out whole groups, so
-/// the share of masters stays. Each cell keeps its last group until all others have one only. turn: any; which group of
-/// a cell is the last.
+/// Gives each master and its slaves one rank: where the level of detail leaves blades out, it leaves out whole groups,
+/// so the share of masters stays. Each cell keeps its last group until all others have one only. turn: any; which group
+/// of a cell is the last.
 void set_ranks(std::span<GrassBlade> blades, std::uint32_t masters, double shift, std::uint32_t turn) {
   std::array<std::uint32_t, kBladesOfPatch> order{};
   const std::uint32_t cells = (masters + kCellGroups - 1) / kCellGroups;

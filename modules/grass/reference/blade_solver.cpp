@@ -45,8 +45,8 @@ double bend_of(const BladeModel& blade) {
   const double stiffness = std::clamp(blade.stiffness, 0.0, 0.999);
   const double shorter = kNominalLength / std::max(blade.length_m, 1e-4);
   const double wider = blade.width_m / kNominalWidth;
-  const double bend =
-      stiffness / (1.0 - stiffness) * std::hypot(kRodBend * std::pow(wider * shorter * shorter, 2.0), kHeldBend * shorter);
+  const double bend = stiffness / (1.0 - stiffness) *
+                      std::hypot(kRodBend * std::pow(wider * shorter * shorter, 2.0), kHeldBend * shorter);
   return std::min(bend, kMostBend);
 }
 
@@ -97,8 +97,7 @@ Knots predict(const BladeModel& blade, const BladeSteps& frame, const Constants&
     air -= along * glm::dot(along, air);
     const double speed = glm::length(air);
     const double eased = speed + kDragSpeed;
-    const dvec3 acceleration =
-        frame.pull + air * (c.drag * kDragAcceleration * speed / (eased * eased));
+    const dvec3 acceleration = frame.pull + air * (c.drag * kDragAcceleration * speed / (eased * eased));
     way[k] = moved * c.retained + acceleration * (c.gain * static_cast<double>(k) / kTip);
   }
   return way;

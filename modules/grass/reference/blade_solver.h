@@ -26,7 +26,7 @@ struct BladeModel {
   double length_m = 0.3;
   double width_m = 0.006;  ///< at the root
   double stiffness = 0.5;
-  double damping = 1.5;  ///< 1/s: a swing falls to 1/e in 1 s over damping
+  double damping = 1.5;                   ///< 1/s: a swing falls to 1/e in 1 s over damping
   std::array<dvec3, kGrassKnots> rest{};  ///< relative to the root
 };
 
@@ -41,7 +41,7 @@ struct BladeSteps {
   dvec3 wind_at = dvec3(0.0);  ///< position of the patch's origin in the wind's field
   double step_s = 1.0 / 120.0;
   std::uint32_t frame_steps = 1;
-  std::uint32_t iterations = 3;              ///< ≥ 1
+  std::uint32_t iterations = 3;         ///< ≥ 1
   dvec3 pull = dvec3(0.0, -9.81, 0.0);  ///< external acceleration, along the patch's axes
   std::span<const shaders::GrassCollider> colliders;
 };

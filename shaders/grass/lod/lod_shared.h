@@ -25,10 +25,11 @@ struct GrassLod {
   uint most_masters;      // that the dispatch of the simulation has room for
   float steps_per_s;      // of the simulation
   float units_per_metre;  // of the view
-  float stride_px;        // a blade that is shorter than this in the picture runs two steps at once, one a third as long four; 0: none does
-  uvec4 class_keys;       // greatest key of each draw class, rising; the last is 254
-  uvec4 class_segments;   // segments of each blade of a class: 15, 5, 3 or 1
-  uvec4 class_indices;    // first index of a class in the index buffer
+  float stride_px;       // a blade that is shorter than this in the picture runs two steps at once, one a third as long
+                         // four; 0: none does
+  uvec4 class_keys;      // greatest key of each draw class, rising; the last is 254
+  uvec4 class_segments;  // segments of each blade of a class: 15, 5, 3 or 1
+  uvec4 class_indices;   // first index of a class in the index buffer
 };
 
 /// Arguments of one indexed indirect draw.

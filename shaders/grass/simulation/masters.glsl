@@ -27,8 +27,8 @@ uint turns_of(GrassMaster master) {
   return single == 0u ? 0u : max(single / stride_of(master), 1u);
 }
 
-// The frame's part, in its steps, that has passed when `turns` of the master's own steps are left; below 0 if they begin
-// before the frame.
+// The frame's part, in its steps, that has passed when `turns` of the master's own steps are left; below 0 if they
+// begin before the frame.
 float passed_steps(uint turns, uint stride) { return float(steps.frame_steps) - float(turns * stride); }
 
 // A knot a step earlier is stored as if its last way had lasted one step, so a blade may change its stride.

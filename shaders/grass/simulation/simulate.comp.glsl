@@ -106,8 +106,7 @@ vec3 held_by_joints(KnotRest r, BladeRod rod, uint lane, uint k, vec3 segment, v
   return has_joint ? direction_or(held, direction) : direction;
 }
 
-vec3 pushed_by_all(GrassPatchRow patch_row, vec3 root, vec3 normal, vec3 at, float passed, float stride,
-                   float most) {
+vec3 pushed_by_all(GrassPatchRow patch_row, vec3 root, vec3 normal, vec3 at, float passed, float stride, float most) {
   float begin = max(passed, 0.0) / float(max(steps.frame_steps, 1u));
   float end = max(passed + stride, 0.0) / float(max(steps.frame_steps, 1u));
   precise vec3 in_patch = root + at;
@@ -127,7 +126,8 @@ void restore_lengths(uint lane) {
   uint knot = blade * kKnots + 1u;
   uint last = lane < kBlades ? knot + kKnots - 2u : knot;
   do {
-    from = restored(from, height, knot_at[0][knot], KnotRest(rest_below[knot], rest_mirrored[knot], segment_m[knot]), normal, forward, along);
+    from = restored(from, height, knot_at[0][knot], KnotRest(rest_below[knot], rest_mirrored[knot], segment_m[knot]),
+                    normal, forward, along);
     if (lane < kBlades) knot_at[1][knot] = from;
     ++knot;
   } while (knot <= last);
@@ -185,8 +185,7 @@ void main() {
     float passed = passed_steps(turns - min(turn, turns), stride);
     wind.drift = steps.wind.drift + steps.wind.velocity * (steps.step_s * passed);
     vec3 air = grass_unturned(patch_row.turn, wind_velocity(wind, wind_at));
-    precise vec3 next =
-        at + predicted(rod, k, at, before, knot_at[1][k == 0u ? lane : lane - 1u], air, pull, step_s);
+    precise vec3 next = at + predicted(rod, k, at, before, knot_at[1][k == 0u ? lane : lane - 1u], air, pull, step_s);
     knot_at[0][lane] = k == 0u ? vec3(0.0) : next;
     barrier();
     precise vec3 free = next - knot_at[0][k == 0u ? lane : lane - 1u];
@@ -205,8 +204,8 @@ void main() {
     place_knots(lane);
     barrier();
     if (kColliders) {
-      knot_at[0][lane] = pushed_by_all(patch_row, stem.root, stem.normal, knot_at[0][lane], passed, float(stride),
-                                       rod.reach_m);
+      knot_at[0][lane] =
+          pushed_by_all(patch_row, stem.root, stem.normal, knot_at[0][lane], passed, float(stride), rod.reach_m);
       barrier();
     }
     restore_lengths(lane);

@@ -129,5 +129,5 @@ void main() {
     advance(patch_row, stem, passed_steps(turns - min(turn, turns), stride), float(stride), turn < turns);
   } while (++turn < turns);
   [[unroll]] for (int k = 0; k < kKnots; ++k)
-    store_knot(place + uint(k), stem.root, at[k], scaled_before(at[k], before[k], 1.0 / float(stride)), fresh);
+      store_knot(place + uint(k), stem.root, at[k], scaled_before(at[k], before[k], 1.0 / float(stride)), fresh);
 }

@@ -10,15 +10,15 @@
 // modules/grass/reference/blade_solver.
 
 const vec3 kGravity = vec3(0.0, -9.81, 0.0);
-const float kDragAcceleration = 90.0;  // m/s², limit of the wind's acceleration
-const float kDragSpeed = 10.0;         // m/s of relative wind that gives a quarter of it
-const float kNominalLength = 0.3;      // metres
-const float kNominalWidth = 0.006;     // metres
-const float kRodBend = 290.0;          // 1/s², at the nominal size, of a blade as thick as it is wide
-const float kHeldBend = 260.0;         // 1/s², at the nominal length, of a blade that holds its weight
-const float kMostBend = 32400.0;       // 1/s²
-const float kLimpDamping = 6.0;        // 1/s, least damping of a blade that nothing holds
-const float kDampingRatio = 0.1;       // least damping over the frequency
+const float kDragAcceleration = 90.0;     // m/s², limit of the wind's acceleration
+const float kDragSpeed = 10.0;            // m/s of relative wind that gives a quarter of it
+const float kNominalLength = 0.3;         // metres
+const float kNominalWidth = 0.006;        // metres
+const float kRodBend = 290.0;             // 1/s², at the nominal size, of a blade as thick as it is wide
+const float kHeldBend = 260.0;            // 1/s², at the nominal length, of a blade that holds its weight
+const float kMostBend = 32400.0;          // 1/s²
+const float kLimpDamping = 6.0;           // 1/s, least damping of a blade that nothing holds
+const float kDampingRatio = 0.1;          // least damping over the frequency
 const float kMostJointCosine = 0.951106;  // of 18 degrees, the greatest angle by which a joint differs from rest
 const float kMostJointSine = 0.308866;
 const float kModeBend = 160.758;       // 1 over the least eigenvalue of the joints' stiffness
@@ -157,7 +157,8 @@ vec3 joint_strain(KnotRest r, float joint, vec3 segment, vec3 below, vec3 below_
 }
 
 // The knot after the one at `from`, which is `height` over the ground plane: at its distance, toward `toward`, but so
-// that no joint folds and not below the plane. along: in, the direction of the segment below; out, that of this segment.
+// that no joint folds and not below the plane. along: in, the direction of the segment below; out, that of this
+// segment.
 vec3 restored(vec3 from, inout float height, vec3 toward, KnotRest r, vec3 normal, vec3 forward, inout vec3 along) {
   precise vec3 segment = toward - from;
   float length_m = r.length_m;
@@ -209,8 +210,8 @@ vec3 way_out(GrassCollider c, vec3 from, vec3 to, vec3 at, vec3 up) {
   return push;
 }
 
-// When in a step, 0…1, a capsule that moves from (from0, to0) to (from1, to1) is nearest to a knot: the places along the
-// axis and in time are found in turn, which is exact for a sphere.
+// When in a step, 0…1, a capsule that moves from (from0, to0) to (from1, to1) is nearest to a knot: the places along
+// the axis and in time are found in turn, which is exact for a sphere.
 float nearest_time(vec3 at, vec3 from0, vec3 to0, vec3 from1, vec3 to1) {
   precise float time = 1.0;
   [[unroll]] for (int i = 0; i < 4; ++i) {
@@ -225,7 +226,8 @@ float nearest_time(vec3 at, vec3 from0, vec3 to0, vec3 from1, vec3 to1) {
   return time;
 }
 
-// The middle of the time, 0…1, in which a box whose centre moves from `begin` to `end` holds a knot; 1 if it never does.
+// The middle of the time, 0…1, in which a box whose centre moves from `begin` to `end` holds a knot; 1 if it never
+// does.
 float inside_time(GrassCollider c, vec3 at, vec3 begin, vec3 end) {
   precise vec3 to = at - begin, way = end - begin;
   precise float first = 0.0, last = 1.0;
@@ -243,8 +245,8 @@ float inside_time(GrassCollider c, vec3 at, vec3 begin, vec3 end) {
   return first <= last ? middle : 1.0;
 }
 
-// Where a collider pushes a knot in a step: out of the place where it is nearest in the step, then out of where it is at
-// the end. begin, end: shares of the frame's steps that have passed.
+// Where a collider pushes a knot in a step: out of the place where it is nearest in the step, then out of where it is
+// at the end. begin, end: shares of the frame's steps that have passed.
 vec3 pushed(GrassCollider c, vec3 at, vec3 up, float begin, float end, float most) {
   precise vec3 from0 = c.from_previous + (c.from - c.from_previous) * begin;
   precise vec3 from1 = c.from_previous + (c.from - c.from_previous) * end;

@@ -139,7 +139,8 @@ TEST(Patches, a_slave_has_a_near_master_and_its_type_and_about_its_yaw) {
     EXPECT_LE(std::abs(std::remainder(blade.yaw - master.yaw, 2.0f * kPi)), 0.6f + 1e-5f);
     EXPECT_NE(blade.length_m, master.length_m);
     // Wind bends it about as far: its width over its length is that of its master, but for the greatest widths.
-    const double stout = double{blade.width_m} / double{blade.length_m} * double{master.length_m} / double{master.width_m};
+    const double stout =
+        double{blade.width_m} / double{blade.length_m} * double{master.length_m} / double{master.width_m};
     alike += std::abs(stout - 1.0) < 0.01 ? 1 : 0;
     distance += double{glm::length(blade.root_m - master.root_m)};
   }

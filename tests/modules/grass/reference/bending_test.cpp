@@ -30,11 +30,11 @@ BladeModel builtin_blade(const BladeType& type, float mean_m, float mean_width_m
 }
 
 struct Lean {
-  double lean_m = 0.0;     ///< mean way of the tip from where it stands in still air
-  double sway_m = 0.0;     ///< range of it over time
-  double sharpest = 0.0;   ///< greatest angle between segments, degrees
-  double height_m = 0.0;   ///< mean of the tip
-  double longest = 0.0;    ///< greatest relative error of a segment's length
+  double lean_m = 0.0;    ///< mean way of the tip from where it stands in still air
+  double sway_m = 0.0;    ///< range of it over time
+  double sharpest = 0.0;  ///< greatest angle between segments, degrees
+  double height_m = 0.0;  ///< mean of the tip
+  double longest = 0.0;   ///< greatest relative error of a segment's length
 };
 
 double sharpest_angle(const BladeState& state) {

@@ -166,14 +166,17 @@ TEST_F(GrassSimulationHard, a_ball_moves_every_blade_in_its_way_however_fast_it_
       const double frame_m = speed * steps / 120.0;
       const int frames = static_cast<int>(std::ceil(glm::length(end - begin) / frame_m));
       for (int frame = 0; frame < frames + 2; ++frame) {
-        const auto place = [&](int f) { return vec3(glm::mix(begin, end, std::min(static_cast<double>(f) / frames, 1.0))); };
+        const auto place = [&](int f) {
+          return vec3(glm::mix(begin, end, std::min(static_cast<double>(f) / frames, 1.0)));
+        };
         input.colliders[0] = sphere(place(frame), place(frame + 1), static_cast<float>(kRadius_m));
         kernel.advance(input, 1);
         kernel.advance(still, 1);
         for (std::size_t b = 0; b < moved.size(); ++b)
           for (std::size_t k = 0; k < kGrassKnots; ++k) {
             const std::size_t at = twin.knot_index(b, k);
-            moved[b] = std::max(moved[b], static_cast<double>(glm::length(vec3(input.knots[at]) - vec3(still.knots[at]))));
+            moved[b] =
+                std::max(moved[b], static_cast<double>(glm::length(vec3(input.knots[at]) - vec3(still.knots[at]))));
           }
       }
       std::size_t hit = 0, stood = 0, touched = 0;

@@ -111,7 +111,8 @@ TEST_F(GrassSimulation, blades_of_every_stride_swing_alike) {
   for (int i = 1; i < 3; ++i) {
     double mean = 0.0;
     for (std::size_t b = 0; b < tips[0].size(); ++b)
-      mean += static_cast<double>(glm::length(vec3(tips[i][b]) - vec3(tips[0][b]))) / static_cast<double>(tips[0].size());
+      mean +=
+          static_cast<double>(glm::length(vec3(tips[i][b]) - vec3(tips[0][b]))) / static_cast<double>(tips[0].size());
     std::printf("stride %d: tips %.2f mm from those of stride 1\n", 1 << i, 1e3 * mean);
     EXPECT_LT(mean, 0.005);
   }
