@@ -48,6 +48,7 @@ struct SortedBlades {
   BufferRef blades;    ///< patch row · 256 + index in the patch, sorted by key
   BufferRef bins;      ///< 257 words: exclusive prefix sum over the keys
   BufferRef draws;     ///< shaders::GrassDraws
+  BufferRef casting;   ///< shaders::GrassCasting, without blades
   BufferRef dispatch;  ///< shaders::GrassDispatch, without masters
 };
 
@@ -61,6 +62,8 @@ struct MasterList {
 /// Everything that the draws of blades read.
 struct DrawnBlades {
   BufferRef poses;    ///< shaders::GrassPose, of the live blades in sorted order
+  BufferRef casting;  ///< shaders::GrassCasting
+  BufferRef casters;  ///< places of its blades among the poses
   BufferRef draws;    ///< shaders::GrassDraws
   BufferRef knots;    ///< GrassStore::knots
   BufferRef indices;  ///< of all draw classes

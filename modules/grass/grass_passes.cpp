@@ -176,8 +176,8 @@ void add_grass_passes(FrameBuilder& frame, GrassWorlds& worlds) {
   const SortedBlades sorted = add_blade_sort_passes(frame, inputs, stored.store);
   const MasterList masters = add_master_pass(frame, inputs, stored.store, sorted);
   stored.store = add_simulation_pass(frame, inputs, stored.store, masters, groups);
-  const BufferRef poses = add_pose_pass(frame, inputs, stored.store, sorted);
-  const DrawnBlades drawn = add_blade_pass(frame, inputs, stored.store, sorted, poses);
+  const DrawnBlades posed = add_pose_pass(frame, inputs, stored.store, sorted);
+  const DrawnBlades drawn = add_blade_pass(frame, inputs, stored.store, sorted, posed);
   **board = GrassFrame{std::move(stored), inputs.lod, inputs.steps, sorted, masters.dispatch, drawn};
 }
 

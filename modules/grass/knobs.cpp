@@ -6,7 +6,7 @@ namespace gloam {
 
 void add_grass_knobs(KnobRegistry& registry) {
   add_knobs(registry, "grass", kGrassSlaves, kGrassIterations, kGrassDensityScale, kGrassLodPixels, kGrassThreshold,
-            kGrassCastDistance, kGrassAllSegments, kGrassReadback, kGrassFarSteps, kGrassThreads);
+            kGrassCastDistance, kGrassCasters, kGrassAllSegments, kGrassReadback, kGrassFarSteps, kGrassThreads);
 }
 
 GrassKnobs grass_knobs(const KnobRegistry& registry) {
@@ -17,6 +17,7 @@ GrassKnobs grass_knobs(const KnobRegistry& registry) {
   knobs.lod_pixels = static_cast<float>(registry.value(kGrassLodPixels));
   knobs.threshold = registry.value(kGrassThreshold);
   knobs.cast_distance_m = static_cast<float>(registry.value(kGrassCastDistance));
+  knobs.cast_every = registry.value(kGrassCasters);
   knobs.threads = registry.value(kGrassThreads);
   knobs.readback = registry.value(kGrassReadback);
   knobs.far_steps = registry.value(kGrassFarSteps);

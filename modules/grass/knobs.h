@@ -76,6 +76,15 @@ inline constexpr NumberKnob kGrassCastDistance{.name = "grass.cast_distance",
                                                .unit = "m",
                                                .ledger_values = {0, 3, 6, 12},
                                                .only_with = "shadows.mode=monolithic|deferred"};
+inline constexpr ChoiceKnob<std::uint32_t> kGrassCasters{
+    .name = "grass.casters",
+    .meaning =
+        "blades that cast shadows among those within grass.cast_distance: 1:4 means a quarter of them, four times "
+        "as wide; the same ones in every frame",
+    .choices = {{"1:1", 1}, {"1:2", 2}, {"1:4", 4}, {"1:8", 8}},
+    .default_value = 4,
+    .exact = 1,
+    .only_with = "shadows.mode=monolithic|deferred"};
 inline constexpr ChoiceKnob<bool> kGrassAllSegments{
     .name = "grass.segments",
     .meaning = "segments of a blade: as many as its size in the picture needs (distance), or 15 (full)",
@@ -111,6 +120,7 @@ struct GrassKnobs {
   float lod_pixels = 1.0f;              ///< least width of a blade's root, pixels; 0: no thinning
   std::uint32_t threshold = 254;        ///< greatest key that is drawn
   float cast_distance_m = 6.0f;         ///< blades nearer than this cast shadows
+  std::uint32_t cast_every = 4;         ///< of so many near blades one casts shadows, as many times as wide
   SimulationThreads threads = SimulationThreads::device;
   bool readback = false;      ///< the CPU sizes the simulation's dispatch by an earlier frame's count
   bool far_steps = true;      ///< blades that are small in the picture run two or four steps at once

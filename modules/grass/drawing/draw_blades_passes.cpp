@@ -52,8 +52,8 @@ void bind_blades(ShaderPass& pass, const DrawnBlades& blades) {
   pass.read("knots", blades.knots);
 }
 
-BufferRef add_pose_pass(FrameBuilder& frame, const GrassInputs& inputs, const GrassStore& store,
-                        const SortedBlades& sorted) {
+DrawnBlades add_pose_pass(FrameBuilder& frame, const GrassInputs& inputs, const GrassStore& store,
+                          const SortedBlades& sorted) {
   ComputePass pass(frame, "grass_poses", grass_pose_program());
   pass.read("lod", inputs.lod_range);
   pass.read("patches", inputs.patch_rows);
@@ -68,15 +68,23 @@ BufferRef add_pose_pass(FrameBuilder& frame, const GrassInputs& inputs, const Gr
   desc.name = "grass_poses";
   desc.module = "grass";
   desc.size = std::uint64_t{inputs.patches} * GLOAM_GRASS_PATCH_BLADES * sizeof(shaders::GrassPose);
-  const BufferRef poses = pass.write("poses", frame.graph().create_buffer(desc));
+  DrawnBlades posed;
+  posed.poses = pass.write("poses", frame.graph().create_buffer(desc));
+  desc.name = "grass_casters";
+  desc.size = std::uint64_t{inputs.patches} * GLOAM_GRASS_PATCH_BLADES * sizeof(std::uint32_t);
+  posed.casters = pass.write("casters", frame.graph().create_buffer(desc));
+  posed.casting = pass.write("casting", sorted.casting);
   pass.dispatch_indirect(sorted.draws, offsetof(shaders::GrassDraws, blade_groups));
-  return poses;
+  return posed;
 }
 
 DrawnBlades add_blade_pass(FrameBuilder& frame, const GrassInputs& inputs, const GrassStore& store,
-                           const SortedBlades& sorted, BufferRef poses) {
+                           const SortedBlades& sorted, DrawnBlades posed) {
   const BufferRef indices = kept_indices(frame, "grass_indices", blade_indices());
-  const DrawnBlades blades{poses, sorted.draws, store.knots, indices};
+  DrawnBlades blades = posed;
+  blades.draws = sorted.draws;
+  blades.knots = store.knots;
+  blades.indices = indices;
   if (!frame.status().ok()) return blades;
   GeometryOutputs& geometry = frame.get<GeometryOutputs>();
   const bool motion = static_cast<bool>(geometry.motion);
@@ -106,9 +114,9 @@ void add_blade_casters(FrameBuilder& frame, std::shared_ptr<const GrassFrame> gr
   source.moving = true;
   source.declare_reads = [grass](PassBuilder& pass) {
     const DrawnBlades& blades = grass->drawn;
-    for (const BufferRef buffer : {blades.poses, blades.draws, blades.knots})
+    for (const BufferRef buffer : {blades.poses, blades.draws, blades.knots, blades.casting, blades.casters})
       pass.read(buffer, gpu::Access::vertex_read);
-    pass.read(blades.draws, gpu::Access::indirect_read);
+    pass.read(blades.casting, gpu::Access::indirect_read);
     pass.read(blades.indices, gpu::Access::vertex_input);
   };
   source.record = [grass, pipeline = *pipeline,
@@ -119,13 +127,14 @@ void add_blade_casters(FrameBuilder& frame, std::shared_ptr<const GrassFrame> gr
     const auto bound = [&](std::uint32_t binding, BufferRef buffer) {
       return gpu::Binding{binding, gpu::Binding::BufferRange{context.buffer(buffer)}};
     };
-    const gpu::Binding bindings[] = {bound(1, blades.poses), bound(2, blades.draws), bound(3, blades.knots)};
+    const gpu::Binding bindings[] = {bound(1, blades.poses), bound(2, blades.draws), bound(3, blades.knots),
+                                     bound(4, blades.casting), bound(5, blades.casters)};
     gpu::CommandList& commands = context.commands();
     draw.bind_pipeline(pipeline);
     commands.bind(bindings);
     commands.push(draw.projection().constants(world_from_relative));
     commands.bind_indices(context.buffer(blades.indices), 0);
-    commands.draw_indexed_indirect(context.buffer(blades.draws), offsetof(shaders::GrassDraws, cast_draw), 1);
+    commands.draw_indexed_indirect(context.buffer(blades.casting), offsetof(shaders::GrassCasting, draw), 1);
   };
   frame.add_caster_source(std::move(source));
 }

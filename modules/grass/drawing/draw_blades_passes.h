@@ -22,12 +22,12 @@ void list_blade_pipelines(bool motion, bool clipped, PipelineList& list);
 /// Whether the pipelines of the view's kind exist, or the frame waits for them. Otherwise they are requested.
 [[nodiscard]] bool blade_pipelines_ready(const FrameBuilder& frame);
 
-/// Computes the poses of the live blades: shaders::GrassPose, in sorted order.
-[[nodiscard]] BufferRef add_pose_pass(FrameBuilder& frame, const GrassInputs& inputs, const GrassStore& store,
-                                      const SortedBlades& sorted);
-/// Draws the live blades into the geometry buffer. store: after the simulation.
+/// Computes the poses of the live blades, and lists those that cast shadows. Leaves out draws and indices.
+[[nodiscard]] DrawnBlades add_pose_pass(FrameBuilder& frame, const GrassInputs& inputs, const GrassStore& store,
+                                        const SortedBlades& sorted);
+/// Draws the live blades into the geometry buffer. store: after the simulation. posed: add_pose_pass().
 [[nodiscard]] DrawnBlades add_blade_pass(FrameBuilder& frame, const GrassInputs& inputs, const GrassStore& store,
-                                         const SortedBlades& sorted, BufferRef poses);
+                                         const SortedBlades& sorted, DrawnBlades posed);
 /// Binds all that blade_shape.glsl reads.
 void bind_blades(ShaderPass& pass, const DrawnBlades& blades);
 

@@ -37,6 +37,7 @@ shaders::GrassLod grass_lod(const RenderView& view, const GrassKnobs& knobs, con
   lod.cast_m = knobs.cast_distance_m;
   lod.cast_key = knobs.cast_distance_m > 0.0f ? key_at(knobs.cast_distance_m, range.range_m) : GLOAM_GRASS_CULLED;
   lod.stride_px = knobs.far_steps ? kStridePixels : 0.0f;
+  lod.cast_every = knobs.cast_every;
   std::uint32_t first_index = 0;
   for (int i = 0; i < GLOAM_GRASS_CLASSES; ++i) {
     const auto at = static_cast<std::size_t>(i);

@@ -43,8 +43,9 @@ SortedBlades add_blade_sort_passes(FrameBuilder& frame, const GrassInputs& input
   const BufferRef draws = live.write("draws", frame_buffer(frame, "grass_draws", sizeof(shaders::GrassDraws)));
   const BufferRef dispatch =
       live.write("dispatch", frame_buffer(frame, "grass_dispatch", sizeof(shaders::GrassDispatch)));
+  const BufferRef casting = live.write("casting", frame_buffer(frame, "grass_casting", sizeof(shaders::GrassCasting)));
   live.dispatch(1);
-  return {sorted.values, sorted.bins, draws, dispatch};
+  return {sorted.values, sorted.bins, draws, casting, dispatch};
 }
 
 MasterList add_master_pass(FrameBuilder& frame, const GrassInputs& inputs, const GrassStore& store,

@@ -156,7 +156,8 @@ void OverlayMaps::finish(FrameBuilder& frame, const OverlayCopies& copies) const
 
 void list_overlay_map_pipelines(bool d16, PipelineList& list) {
   list.push_back(pipeline_desc(copy_program(d16), "shadows"));
-  list.push_back(pipeline_desc(shadow_mips_in_place_program(d16), "shadows"));
+  for (const MipRuns runs : {MipRuns::first, MipRuns::further})
+    list.push_back(pipeline_desc(shadow_mips_in_place_program(d16, runs), "shadows"));
 }
 
 }  // namespace gloam

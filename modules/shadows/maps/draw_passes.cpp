@@ -109,7 +109,8 @@ UsedImages use_images(FrameBuilder& frame, const ViewMapState& kept, const ViewF
 void list_shadow_map_pipelines(const ShadowKnobs& knobs, PipelineList& list) {
   for (const MapDraw draw : {MapDraw::whole, MapDraw::fronts, MapDraw::cut_out}) list.push_back(map_pipeline(draw));
   if (knobs.subsurface_backs) list.push_back(map_pipeline(MapDraw::backs));
-  list.push_back(pipeline_desc(shadow_mips_program(knobs), "shadows"));
+  for (const MipRuns runs : {MipRuns::first, MipRuns::further})
+    list.push_back(pipeline_desc(shadow_mips_program(knobs, runs), "shadows"));
   list.push_back(pipeline_desc(shadow_backgrounds_program(), "shadows"));
 }
 

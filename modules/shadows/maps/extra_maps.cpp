@@ -138,7 +138,8 @@ void ShadowMapDrawer::draw(FrameBuilder& frame, const char* name, std::span<cons
 }
 
 void list_bounds_pipelines(bool d16, PipelineList& list) {
-  list.push_back(pipeline_desc(shadow_bounds_program(d16), "shadows"));
+  for (const MipRuns runs : {MipRuns::first, MipRuns::further})
+    list.push_back(pipeline_desc(shadow_bounds_program(d16, runs), "shadows"));
 }
 
 gpu::Binding::BufferRange ShadowMapDrawer::block(FrameBuilder& frame, std::uint32_t size) const {

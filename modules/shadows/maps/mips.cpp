@@ -78,8 +78,9 @@ void record(gpu::CommandList& commands, const ShadowMipWork& work, const GroupRa
   dispatch_groups(commands, constants, groups);
 }
 
-void bind(gpu::CommandList& commands, const ShadowMipWork& work, const ShadowMipImages& images) {
-  commands.bind_pipeline(work.pipeline);
+void bind(gpu::CommandList& commands, const ShadowMipWork& work, gpu::PipelineHandle pipeline,
+          const ShadowMipImages& images) {
+  commands.bind_pipeline(pipeline);
   const gpu::ImageView scratch{.image = images.scratch, .as_array = true};
   const gpu::ImageView backgrounds{.image = images.backgrounds ? images.backgrounds : images.scratch, .as_array = true};
   const gpu::Binding bindings[] = {{0, gpu::Binding::Sampled{scratch, work.sampler}},
@@ -113,17 +114,19 @@ shaders::ShadowMipConstants constants_of(const ShadowKnobs& knobs) {
 
 }  // namespace
 
-ComputeProgram shadow_mips_program(const ShadowKnobs& knobs) {
+ComputeProgram shadow_mips_program(const ShadowKnobs& knobs, MipRuns runs) {
   return {knobs.d16 ? shaders::shadows::mips_r16_comp : shaders::shadows::mips_comp,
-          {{"kMipOperator", knobs.mip_operator}}};
+          {{"kMipOperator", knobs.mip_operator}, {"kRuns", static_cast<std::uint32_t>(runs)}}};
 }
 
-ComputeProgram shadow_bounds_program(bool d16) {
-  return {d16 ? shaders::shadows::bounds_r16_comp : shaders::shadows::bounds_comp};
+ComputeProgram shadow_bounds_program(bool d16, MipRuns runs) {
+  return {d16 ? shaders::shadows::bounds_r16_comp : shaders::shadows::bounds_comp,
+          {{"kRuns", static_cast<std::uint32_t>(runs)}}};
 }
 
-ComputeProgram shadow_mips_in_place_program(bool d16) {
-  return {d16 ? shaders::shadows::mips_in_place_r16_comp : shaders::shadows::mips_in_place_comp};
+ComputeProgram shadow_mips_in_place_program(bool d16, MipRuns runs) {
+  return {d16 ? shaders::shadows::mips_in_place_r16_comp : shaders::shadows::mips_in_place_comp,
+          {{"kRuns", static_cast<std::uint32_t>(runs)}}};
 }
 
 ComputeProgram shadow_backgrounds_program() { return {shaders::shadows::backgrounds_comp}; }
@@ -145,8 +148,13 @@ ShadowMipWork plan_shadow_mips(FrameBuilder& frame, const FacePlan& backgrounds,
   auto groups = frame.services().storage.write(std::as_bytes(std::span(list.groups())));
   if (frame.check(groups)) work.groups = *groups;
   const bool bounds_only = mips == MapMips::bounds_only;
-  work.pipeline = pipeline_of(
-      frame, pipeline_desc(bounds_only ? shadow_bounds_program(knobs.d16) : shadow_mips_program(knobs), "shadows"));
+  const auto pipeline = [&](MipRuns runs) {
+    return pipeline_of(
+        frame, pipeline_desc(bounds_only ? shadow_bounds_program(knobs.d16, runs) : shadow_mips_program(knobs, runs),
+                             "shadows"));
+  };
+  work.pipeline = pipeline(MipRuns::first);
+  work.coarse_pipeline = pipeline(MipRuns::further);
   if (!work.backgrounds.empty())
     work.backgrounds_pipeline = pipeline_of(frame, pipeline_desc(shadow_backgrounds_program(), "shadows"));
   work.sampler = frame.sampler(Sampling::nearest);
@@ -163,13 +171,14 @@ void add_shadow_mips_in_place(FrameBuilder& frame, std::string_view name, std::s
   }
   std::vector<GroupRange> runs = {list.take_range()};
   for (const GroupRange& run : add_coarse_runs(plan_faces(std::move(whole)), list)) runs.push_back(run);
-  ComputePass pass(frame, name, shadow_mips_in_place_program(knobs.d16));
+  ComputePass pass(frame, name, shadow_mips_in_place_program(knobs.d16, MipRuns::first));
   atlas = pass.write("atlas", atlas);
   pyramid = pass.write("pyramid", pyramid);
   pass.items<shaders::ShadowMipGroup>("groups", list.groups());
   shaders::ShadowMipConstants constants = constants_of(knobs);
   for (const GroupRange& run : runs) {
     if (constants.first > 0) pass.barrier();  // each run reads the last mip of the run before
+    if (constants.first > 0) pass.use(shadow_mips_in_place_program(knobs.d16, MipRuns::further));
     dispatch_groups(pass, constants, run);
     constants.first += GLOAM_SHADOW_MIP_RUN;
   }
@@ -188,12 +197,12 @@ void record_backgrounds(gpu::CommandList& commands, const ShadowMipWork& work, s
 
 void record_batch_mips(gpu::CommandList& commands, const ShadowMipWork& work, std::size_t batch,
                        const ShadowMipImages& images) {
-  bind(commands, work, images);
+  bind(commands, work, work.pipeline, images);
   record(commands, work, work.batches[batch], 0);
 }
 
 void record_coarse_mips(gpu::CommandList& commands, const ShadowMipWork& work, const ShadowMipImages& images) {
-  bind(commands, work, images);
+  bind(commands, work, work.coarse_pipeline, images);
   for (std::uint32_t run = 0; run < work.coarse.size(); ++run) {
     if (run > 0) {
       // Each run reads the last mip of the run before.

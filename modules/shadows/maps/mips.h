@@ -18,9 +18,11 @@ namespace gloam {
 
 // Plans and records the dispatches that move drawn faces into the atlas and make their mips and pyramid. They read
 // scratch images, which the frame graph does not track, so their passes record commands themselves.
-[[nodiscard]] ComputeProgram shadow_mips_program(const ShadowKnobs& knobs);
-[[nodiscard]] ComputeProgram shadow_bounds_program(bool d16);
-[[nodiscard]] ComputeProgram shadow_mips_in_place_program(bool d16);
+/// Runs of three mips: the first reads mip 0, further ones the last mip of the run before.
+enum class MipRuns : std::uint32_t { first = 1, further = 2 };
+[[nodiscard]] ComputeProgram shadow_mips_program(const ShadowKnobs& knobs, MipRuns runs);
+[[nodiscard]] ComputeProgram shadow_bounds_program(bool d16, MipRuns runs);
+[[nodiscard]] ComputeProgram shadow_mips_in_place_program(bool d16, MipRuns runs);
 [[nodiscard]] ComputeProgram shadow_backgrounds_program();
 
 /// A pipeline for commands that a pass records itself. Null if it cannot be created, and the frame is given up.
@@ -47,7 +49,8 @@ struct ShadowMipWork {
   std::vector<GroupRange> coarse;    ///< by run, from mip GLOAM_SHADOW_MIP_RUN on
   gpu::Binding::BufferRange groups;  ///< one ShadowMipGroup per workgroup
   shaders::ShadowMipConstants constants{};
-  gpu::PipelineHandle pipeline;
+  gpu::PipelineHandle pipeline;              ///< of the first run
+  gpu::PipelineHandle coarse_pipeline;       ///< of further runs
   gpu::PipelineHandle backgrounds_pipeline;  ///< null without backgrounds
   gpu::SamplerHandle sampler;
 };

@@ -78,10 +78,16 @@ PlaneWork work_of(std::span<const FacePart> parts) {
   return work;
 }
 
+// Values of the shader's kLevels.
+constexpr std::uint32_t kFinest = 1, kCoarser = 2;
+
+ComputeProgram planes_program(std::uint32_t levels) { return {shaders::shadows::planes_comp, {{"kLevels", levels}}}; }
+
 }  // namespace
 
 void list_shadow_plane_pipelines(PipelineList& list) {
-  list.push_back(pipeline_desc({shaders::shadows::planes_comp}, "shadows"));
+  for (const std::uint32_t levels : {kFinest, kCoarser})
+    list.push_back(pipeline_desc(planes_program(levels), "shadows"));
 }
 
 ImageRef add_shadow_planes_pass(FrameBuilder& frame, ViewMapState& kept, const ShadowMaps& maps,
@@ -100,12 +106,13 @@ ImageRef add_shadow_planes_pass(FrameBuilder& frame, ViewMapState& kept, const S
   });
   if (parts.empty()) return planes;
   const PlaneWork work = work_of(parts);
-  ComputePass pass(frame, "shadow_planes", shaders::shadows::planes_comp);
+  ComputePass pass(frame, "shadow_planes", planes_program(kFinest));
   pass.read("atlas", maps.atlas);
   planes = pass.write("planes", planes);
   pass.items<shaders::ShadowPlaneGroup>("groups", work.groups);
   dispatch_groups(pass, shaders::ShadowPlaneConstants{0, knobs.atlas_size, 0}, work.ranges[0]);
   pass.barrier();
+  pass.use(planes_program(kCoarser));
   dispatch_groups(pass, shaders::ShadowPlaneConstants{1, knobs.atlas_size, 0}, work.ranges[1]);
   return planes;
 }

@@ -30,12 +30,13 @@ layout(location = 5) out vec3 out_previous_clip;
 #endif
 
 void main() {
+  uint blade = blade_of_vertex(gl_InstanceIndex, gl_VertexIndex, kSegments), count = draws.class_count[kClass];
   BladeVertex v =
-      blade_vertex(gl_InstanceIndex, draws.class_first[kClass], draws.class_count[kClass], gl_VertexIndex, kSegments);
-  vec4 clip = v.exists ? view.clip_from_relative * vec4(v.relative, 1.0) : vec4(2.0, 2.0, 0.0, 1.0);
+      blade_vertex(draws.class_first[kClass] + min(blade, max(count, 1u) - 1u), gl_VertexIndex, kSegments, 1.0);
+  vec4 clip = blade < count ? view.clip_from_relative * vec4(v.relative, 1.0) : vec4(2.0, 2.0, 0.0, 1.0);
   PixelCorner corner = pixel_corner(view.clip_from_relative * vec4(v.middle, 1.0), clip,
                                     view.clip_from_relative * vec4(v.ahead, 1.0), vec2(view.size));
-  gl_Position = v.exists ? corner.position : clip;
+  gl_Position = blade < count ? corner.position : clip;
   out_coverage = vec2(corner.coverage, v.threshold);
   out_normal = v.normal;
   out_binormal = v.binormal;

@@ -29,18 +29,20 @@ struct BladeVertex {
   float threshold;  // of pixel_width.glsl
   uint pose;
   uint knot;  // in knots
-  bool exists;
 };
 
 vec3 posed(GrassPose pose, vec3 v) { return vec3(dot(pose.row0.xyz, v), dot(pose.row1.xyz, v), dot(pose.row2.xyz, v)); }
 
-// instance: of the draw; first, count: its blades among the sorted ones.
-BladeVertex blade_vertex(uint instance, uint first, uint count, uint vertex, uint segments) {
-  uint per_blade = 2u * (segments + 1u);
-  uint place = instance * GLOAM_GRASS_DRAW_BLADES + vertex / per_blade, corner = vertex % per_blade;
+// Which of its draw's blades a vertex belongs to.
+uint blade_of_vertex(uint instance, uint vertex, uint segments) {
+  return instance * GLOAM_GRASS_DRAW_BLADES + vertex / (2u * (segments + 1u));
+}
+
+// place: of the blade's pose. wider: factor of its width.
+BladeVertex blade_vertex(uint place, uint vertex, uint segments, float wider) {
+  uint corner = vertex % (2u * (segments + 1u));
   BladeVertex v;
-  v.exists = place < count;
-  v.pose = first + min(place, max(count, 1u) - 1u);
+  v.pose = place;
   GrassPose pose = poses[v.pose];
   uint last = uint(GLOAM_GRASS_KNOTS) - 1u, knot = corner / 2u * last / segments;
   v.knot = pose.first_knot + knot;
@@ -54,7 +56,7 @@ BladeVertex blade_vertex(uint instance, uint first, uint count, uint vertex, uin
   vec2 width = unpackHalf2x16(pose.width);
   v.along = float(knot) / float(last);
   v.across = (corner & 1u) == 0u ? -1.0 : 1.0;
-  float half_width_m = 0.5 * width.x * mix(1.0, width.y, v.along * v.along);
+  float half_width_m = 0.5 * wider * width.x * mix(1.0, width.y, v.along * v.along);
   vec3 middle = posed(pose, at) + vec3(pose.row0.w, pose.row1.w, pose.row2.w);
   vec3 metric = middle + side * (v.across * half_width_m);
   v.relative = metric * draws.units_per_metre;

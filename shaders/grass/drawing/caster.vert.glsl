@@ -3,7 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// Draws the nearest blades into a shadow map.
+// Draws the listed blades into a shadow map.
 
 #include "shaders/render/caster_api.glsl"
 
@@ -13,7 +13,12 @@ layout(push_constant, scalar) uniform CasterBlock { CasterConstants caster; };
 
 #include "shaders/grass/drawing/blade_shape.glsl"
 
+layout(set = 0, binding = 4, scalar) readonly buffer Casting { GrassCasting casting; };
+layout(set = 0, binding = 5, scalar) readonly buffer Casters { uint casters[]; };  // places among the poses
+
 void main() {
-  BladeVertex v = blade_vertex(gl_InstanceIndex, 0u, draws.cast_count, gl_VertexIndex, kSegments);
-  gl_Position = v.exists ? caster_position(caster, v.relative) : vec4(2.0, 2.0, 2.0, 1.0);
+  uint blade = blade_of_vertex(gl_InstanceIndex, gl_VertexIndex, kSegments);
+  uint place = casters[min(blade, max(casting.count, 1u) - 1u)];
+  BladeVertex v = blade_vertex(min(place, draws.live), gl_VertexIndex, kSegments, casting.wider);
+  gl_Position = blade < casting.count ? caster_position(caster, v.relative) : vec4(2.0, 2.0, 2.0, 1.0);
 }

@@ -6,7 +6,7 @@
 #include "shaders/grass/lod/lod_api.glsl"
 #include "shaders/grass/simulation/slave_api.glsl"
 
-// Poses of the live blades, in sorted order. One thread per blade.
+// Poses of the live blades, in sorted order, and the list of those that cast shadows. One thread per blade.
 
 layout(local_size_x = 64) in;
 
@@ -20,6 +20,8 @@ layout(set = 0, binding = 6, scalar) readonly buffer Knots { vec4 knots[]; };
 layout(set = 0, binding = 7, scalar) readonly buffer PreviousKnots { vec4 previous_knots[]; };
 layout(set = 0, binding = 9, scalar) readonly buffer Stamps { uint stamps[]; };
 layout(set = 0, binding = 8, scalar) writeonly buffer Poses { GrassPose poses[]; };
+layout(set = 0, binding = 10, scalar) buffer Casting { GrassCasting casting; };
+layout(set = 0, binding = 11, scalar) writeonly buffer Casters { uint casters[]; };  // places among the poses
 
 // Rotation and scale from the knots of the master to those of the blade, relative to their roots.
 mat3 turn_of(GrassStem master, GrassStem blade, uint slot, uint first_knot, uint master_type) {
@@ -64,4 +66,10 @@ void main() {
   uint threshold = (slot * 40503u + begin) & 0xFFFFu;
   pose.layer = grass_layer(packed_blade) | threshold << 16;
   poses[i] = pose;
+  // The same blades cast in every frame, whatever their order.
+  if (i < draws.cast_count && threshold * lod.cast_every < 0x10000u) {
+    uint place = atomicAdd(casting.count, 1u);
+    casters[place] = i;
+    atomicMax(casting.draw.instances, place / GLOAM_GRASS_DRAW_BLADES + 1u);
+  }
 }

@@ -12,6 +12,7 @@ layout(set = 0, binding = 0, scalar) uniform Lod { GrassLod lod; };
 layout(set = 0, binding = 1, scalar) readonly buffer Bins { uint bins[257]; };  // exclusive prefix sum over the keys
 layout(set = 0, binding = 2, scalar) writeonly buffer Draws { GrassDraws draws; };
 layout(set = 0, binding = 3, scalar) writeonly buffer Dispatch { GrassDispatch dispatch; };
+layout(set = 0, binding = 4, scalar) writeonly buffer Casting { GrassCasting casting; };
 
 GrassDraw draw_of(uint blades, uint segments, uint first_index) {
   uint instances = (blades + GLOAM_GRASS_DRAW_BLADES - 1u) / GLOAM_GRASS_DRAW_BLADES;
@@ -27,10 +28,10 @@ void main() {
     draws.class_count[i] = count;
     first += count;
   }
-  uint casting = lod.cast_key < GLOAM_GRASS_CULLED ? min(bins[lod.cast_key + 1u], live) : 0u;
-  draws.cast_draw =
-      draw_of(casting, lod.class_segments[GLOAM_GRASS_CAST_CLASS], lod.class_indices[GLOAM_GRASS_CAST_CLASS]);
-  draws.cast_count = casting;
+  draws.cast_count = lod.cast_key < GLOAM_GRASS_CULLED ? min(bins[lod.cast_key + 1u], live) : 0u;
+  casting =
+      GrassCasting(draw_of(0u, lod.class_segments[GLOAM_GRASS_CAST_CLASS], lod.class_indices[GLOAM_GRASS_CAST_CLASS]),
+                   0u, float(lod.cast_every));
   draws.live = live;
   draws.units_per_metre = lod.units_per_metre;
   draws.blade_groups = uvec3((live + 63u) / 64u, 1u, 1u);

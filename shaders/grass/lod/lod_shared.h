@@ -22,6 +22,7 @@ struct GrassLod {
   uint threshold;         // greatest key that is drawn, 0…254
   float cast_m;           // blades nearer than this stay although they are out of view: they may cast shadows into it
   uint cast_key;          // greatest key of blades that cast shadows; GLOAM_GRASS_CULLED: none do
+  uint cast_every;        // of so many blades within cast_key one casts, as many times as wide; ≥ 1
   uint most_masters;      // that the dispatch of the simulation has room for
   float steps_per_s;      // of the simulation
   float units_per_metre;  // of the view
@@ -44,13 +45,19 @@ struct GrassDraw {
 /// Draws of a view, written by live.comp.
 struct GrassDraws {
   GrassDraw draws[GLOAM_GRASS_CLASSES];
-  GrassDraw cast_draw;
   uvec3 blade_groups;                     // workgroups with a thread for each live blade
   uint live;                              // blades that are drawn
   uint class_first[GLOAM_GRASS_CLASSES];  // in the sorted blades
   uint class_count[GLOAM_GRASS_CLASSES];
-  uint cast_count;
+  uint cast_count;  // blades within cast_key
   float units_per_metre;
+};
+
+/// Blades that cast shadows: begun by live.comp, listed by pose.comp in any order.
+struct GrassCasting {
+  GrassDraw draw;
+  uint count;
+  float wider;  // factor of their width
 };
 
 /// Masters that a frame simulates, written by live.comp and masters.comp.

@@ -28,6 +28,8 @@ layout(set = 0, binding = 4) uniform sampler2DArray backgrounds;
 layout(push_constant, scalar) uniform Constants { ShadowMipConstants run; };
 // The mip operator, so that the shader holds no code of the others.
 layout(constant_id = 0) const uint kMipOperator = GLOAM_SHADOW_MIPS_AS_PUSHED;
+// Which runs the pipeline makes: a processor goes through the code of both. 0: both; 1: the first; 2: further ones.
+layout(constant_id = 1) const uint kRuns = 0u;
 
 bool is_operator(int mip_operator) {
   return (kMipOperator == uint(GLOAM_SHADOW_MIPS_AS_PUSHED) ? run.mip_operator : kMipOperator) == uint(mip_operator);
@@ -229,10 +231,8 @@ void main() {
   uvec2 block = face.begin + gl_LocalInvocationID.xy;
   bool inside = all(lessThan(block, face.end));
   float gap = face.gap * float(1u << (run.first + 1u));
-  // Loops of one iteration instead of branches: a device that runs threads in lockstep on a CPU can skip a loop, but
-  // executes both sides of a branch.
-  if (inside && run.first == 0u) make_first_mips(block, gap);
-  if (inside && run.first != 0u) make_next_mips(block, gap);
+  if (inside && (kRuns == 1u || (kRuns == 0u && run.first == 0u))) make_first_mips(block, gap);
+  if (inside && (kRuns == 2u || (kRuns == 0u && run.first != 0u))) make_next_mips(block, gap);
 }
 
 #endif

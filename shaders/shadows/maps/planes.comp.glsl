@@ -14,6 +14,9 @@ layout(set = 0, binding = 1, rgba32f) uniform image2D planes;
 layout(set = 0, binding = 2, scalar) readonly buffer Groups { ShadowPlaneGroup groups[]; };
 layout(push_constant, scalar) uniform Constants { ShadowPlaneConstants run; };
 
+// Which levels the pipeline makes: a processor goes through the code of both. 0: as pushed; 1: level 0; 2: the others.
+layout(constant_id = 0) const uint kLevels = 0u;
+
 ShadowPlaneGroup stretch;  // this workgroup's entry
 
 const int kBlock = GLOAM_SHADOW_PLANE_BLOCK;
@@ -111,9 +114,7 @@ void main() {
   uvec2 at = stretch.begin + gl_LocalInvocationID.xy;
   if (any(greaterThanEqual(at, stretch.end))) return;
   ivec2 texel = ivec2(at);
-  if (run.first_level == 0u) {
+  if (kLevels == 1u || (kLevels == 0u && run.first_level == 0u))
     store(0, texel, plane_of_block(ivec2(stretch.origin) + texel * kBlock));
-    return;
-  }
-  make_levels(texel);
+  if (kLevels == 2u || (kLevels == 0u && run.first_level != 0u)) make_levels(texel);
 }
