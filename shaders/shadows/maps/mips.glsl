@@ -171,21 +171,23 @@ Texels first_texels(uvec2 at1, float gap) {
 // Makes mips 0 to 3 of a block (in place: 1 to 3). All faces have them, as the smallest is 16 texels wide.
 void make_first_mips(uvec2 block, float gap) {
   Texels third = kNone;
-  for (uint quarter = 0u; quarter < 4u; ++quarter) {
+  uint quarter = 0u;
+  do {
     uvec2 at2 = block * 2u + uvec2(quarter & 1u, quarter >> 1);
     Texels second = kNone;
-    for (uint four = 0u; four < 4u; ++four) {
+    uint four = 0u;
+    do {
       uvec2 at1 = at2 * 2u + uvec2(four & 1u, four >> 1);
       Texels first = first_texels(at1, gap);
       float depth = depth_of(first);
       store_depth(1u, at1, depth);
       add(second, depth, first.bounds, 2.0 * gap);
-    }
+    } while (++four < 4u);
     float depth = depth_of(second);
     store_depth(2u, at2, depth);
     store_bounds(2u, at2, second.bounds);
     add(third, depth, second.bounds, 4.0 * gap);
-  }
+  } while (++quarter < 4u);  // tested at the end: see docs/development.md
   store_depth(3u, block, depth_of(third));
   store_bounds(3u, block, third.bounds);
 }
@@ -204,10 +206,12 @@ float source_texel(uvec2 at, out vec2 bounds) {
 // Makes the three mips after run.first for a block.
 void make_next_mips(uvec2 block, float gap) {
   Texels third = kNone;
-  for (uint quarter = 0u; quarter < 4u; ++quarter) {
+  uint quarter = 0u;
+  do {
     uvec2 at2 = block * 2u + uvec2(quarter & 1u, quarter >> 1);
     Texels second = kNone;
-    for (uint four = 0u; four < 4u; ++four) {
+    uint four = 0u;
+    do {
       uvec2 at1 = at2 * 2u + uvec2(four & 1u, four >> 1);
       Texels first = kNone;
       for (uint one = 0u; one < 4u; ++one) {
@@ -218,11 +222,11 @@ void make_next_mips(uvec2 block, float gap) {
       float depth = depth_of(first);
       store(run.first + 1u, at1, depth, first.bounds);
       add(second, depth, first.bounds, 2.0 * gap);
-    }
+    } while (++four < 4u);
     float depth = depth_of(second);
     store(run.first + 2u, at2, depth, second.bounds);
     add(third, depth, second.bounds, 4.0 * gap);
-  }
+  } while (++quarter < 4u);  // tested at the end: see docs/development.md
   store(run.first + 3u, block, depth_of(third), third.bounds);
 }
 
