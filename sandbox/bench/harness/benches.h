@@ -77,6 +77,8 @@ void add_grass_simulation_benches(BenchRegistry& registry);
 void add_grass_field_benches(BenchRegistry& registry);
 /// Times of the passes of grass in a frame of the meadow, and by number of live blades.
 void add_grass_cost_benches(BenchRegistry& registry);
+/// What shadows of blades add to frames by night: the meadow under lanterns, the lawn of the courtyard.
+void add_grass_night_benches(BenchRegistry& registry);
 /// Flicker, FLIP and coverage of the level of detail of grass during a walk.
 void add_grass_walk_benches(BenchRegistry& registry);
 /// Times of the passes of particles: lit against unlit ones, by number, and by the rate of lighting.

@@ -91,6 +91,7 @@ BenchRegistry make_bench_registry() {
   add_grass_simulation_benches(registry);
   add_grass_field_benches(registry);
   add_grass_cost_benches(registry);
+  add_grass_night_benches(registry);
   add_grass_walk_benches(registry);
   add_particle_cost_benches(registry);
   add_dof_cache_benches(registry);
