@@ -14,31 +14,44 @@
 
 namespace gloam {
 
-/// The layers of a view: light behind the focus, before it, and not before it.
+/// The layers of a view. Each image holds all levels (DofConstants::corner).
 struct DofLayers {
-  ImageRef far;   ///< rgba16f: light, and the circle of confusion as a share of dof.radius; 0: not blurred
-  ImageRef near;  ///< rgba16f: light multiplied by its share in alpha
-  /// As `near`, of all light that is not in it. Blurred like `near`, it stands for what objects before the focus hide.
-  ImageRef beyond;
+  ImageRef far;   ///< rgba16f: prefilter.comp; gathered: light multiplied by its weight between texels in alpha
+  ImageRef near;  ///< rgba16f: prefilter.comp; gathered: light multiplied by its share in alpha
 };
+
+/// Specialisation constants of the passes over listed tiles, with one more.
+[[nodiscard]] inline gpu::SpecConstants dof_constants(Bokeh bokeh, const char* name, bool value, bool threads_in_turn) {
+  return {{"kHexagonal", bokeh == Bokeh::hexagonal ? 1u : 0u},
+          {name, value ? 1u : 0u},
+          {"kThreads", threads_in_turn ? GLOAM_DOF_THREADS_IN_TURN : GLOAM_DOF_THREADS}};
+}
 
 /// Constants and images that the passes of a view read.
 struct DofInputs {
   DofKnobs knobs;
   Bokeh bokeh = Bokeh::round;
+  bool threads_in_turn = false;  ///< of the device
+  uvec2 layers_size{1};          ///< of the images of all levels
   shaders::DofConstants constants{};
   gpu::Binding::BufferRange block;  ///< the constants
   ImageRef depth;
-
-  [[nodiscard]] std::uint32_t scale() const { return knobs.scale(); }
 };
 
 /// Tiles in which something is blurred.
 struct DofTiles {
-  ImageRef reach;     ///< reach.comp
+  BufferRef bounds;   ///< DofTileBounds of each tile
+  BufferRef picture;  ///< DofPictureBounds
+  BufferRef reach;    ///< DofTileReach of each tile
   BufferRef lists;    ///< DofList, GLOAM_DOF_LISTS of them
   BufferRef entries;  ///< list.comp
-  BufferRef flags;    ///< list.comp
+};
+
+/// Pixels that are drawn as discs.
+struct DofSprites {
+  BufferRef tiles;     ///< DofTileSprites of each tile
+  BufferRef sprites;   ///< DofSprite, GLOAM_DOF_TILE_SPRITES for each tile
+  BufferRef reaching;  ///< sprites/reach.comp
 };
 
 /// A view's depth of field, for counters and visualizers. On the board after PassPhase::post.

@@ -6,16 +6,17 @@
 #include <string_view>
 
 #include "engine/render/knobs/knob_table.h"
-#include "shaders/depth_of_field/depth_of_field_shared.h"
 
 namespace gloam {
 
 /// Values of the module's knobs.
 struct DofKnobs {
   /// Workgroup memory of the blur (dof.cache).
-  enum class Cache : std::uint8_t { none, vectors, channels };
+  enum class Cache : std::uint8_t { device, none, vectors, channels };
   [[nodiscard]] friend constexpr std::string_view name_of(Cache cache) {
     switch (cache) {
+      case Cache::device:
+        return "device";
       case Cache::none:
         return "none";
       case Cache::vectors:
@@ -25,28 +26,38 @@ struct DofKnobs {
     }
     return {};
   }
-  Cache cache = Cache::none;
-  float radius = 15.0f;          ///< greatest radius of a circle of confusion, pixels of the picture
+  Cache cache = Cache::device;
+  float radius = 15.0f;          ///< of circles that are not counted as coarser, pixels of a picture of 360 lines
   bool full_resolution = false;  ///< dof.resolution
-
-  [[nodiscard]] std::uint32_t scale() const { return full_resolution ? 1 : 2; }  ///< pixels a texel of the layers
 };
+
+/// The form that a device runs. threads_in_turn: of gpu::DeviceInfo.
+[[nodiscard]] constexpr DofKnobs::Cache dof_cache(DofKnobs::Cache chosen, bool threads_in_turn) {
+  if (chosen != DofKnobs::Cache::device) return chosen;
+  return threads_in_turn ? DofKnobs::Cache::none : DofKnobs::Cache::channels;
+}
 
 inline constexpr EnumKnob<DofKnobs::Cache> kDofCache{
     .name = "dof.cache",
     .meaning =
-        "workgroup memory of the blur: not used (none), one array of vectors (vec4), or one array for each "
-        "channel (channels); the picture is the same"};
-inline constexpr NumberKnob kDofRadius{.name = "dof.radius",
-                                       .meaning = "greatest radius of a circle of confusion, in pixels of the picture",
-                                       .min = 3,
-                                       .max = GLOAM_DOF_MOST_RADIUS,
-                                       .default_value = 15,
-                                       .unit = "pixels",
-                                       .ledger_values = {3, 7, 15, 23, 31}};
+        "workgroup memory of the blur: not used (none), one array of vectors (vec4), one array for each channel "
+        "(channels), or what is faster on this kind of device (device); the picture is the same to the bit",
+    .exact = DofKnobs::Cache::none};
+inline constexpr NumberKnob kDofRadius{
+    .name = "dof.radius",
+    .meaning =
+        "limit of the radius of a circle of confusion, in pixels of a picture of 360 lines; circles beyond it "
+        "are counted, are blurred at coarser levels, and stop at four times it",
+    .min = 3,
+    .max = 31,
+    .default_value = 15,
+    .unit = "pixels",
+    .ledger_values = {3, 7, 15, 23, 31}};
 inline constexpr ChoiceKnob<bool> kDofFullResolution{
     .name = "dof.resolution",
-    .meaning = "size of the images that are blurred, relative to the picture",
+    .meaning =
+        "size of the images that are blurred, relative to the picture, from circles of 2 (half) or 4 (full) "
+        "pixels on; smaller ones are blurred pixel by pixel, and wider ones in smaller images",
     .choices = {{"half", false}, {"full", true}}};
 
 void add_dof_knobs(KnobRegistry& registry);

@@ -108,6 +108,9 @@ class DepthOfFieldModule final : public Module {
     const std::uint32_t near = lists.list[GLOAM_DOF_COMPOSE_BOTH].count;
     sink.count("dof.tiles", lists.list[GLOAM_DOF_COMPOSE_FAR].count + near);
     sink.count("dof.tiles_near", near);
+    sink.count("dof.tiles_coarser", lists.list[GLOAM_DOF_COARSER].count);
+    sink.count("dof.sprites", lists.list[GLOAM_DOF_SPRITES].count);
+    sink.count("dof.sprite_overflow", lists.list[GLOAM_DOF_OVERFLOW].count);
   }
   void release() override { staging_.release(); }
 

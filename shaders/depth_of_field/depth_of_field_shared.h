@@ -7,48 +7,70 @@
 
 /// Side of a tile, in pixels of the picture.
 #define GLOAM_DOF_TILE 16
-/// Greatest value of dof.radius, in pixels of the picture.
-#define GLOAM_DOF_MOST_RADIUS 31
-/// Farthest texel that a kernel reads, and the tiles that it reaches at most. The round kernel is wider than its
-/// circle.
-#define GLOAM_DOF_MOST_TAPS 44
-#define GLOAM_DOF_MOST_SPREAD 3
-/// Threads of a workgroup that filters a line.
-#define GLOAM_DOF_LINE 64
-/// Side of a workgroup that filters a block of texels.
-#define GLOAM_DOF_BLOCK 8
+/// Levels of the layers. A texel of level k has 2^k × 2^k pixels.
+#define GLOAM_DOF_LEVELS 5
+/// Circles before the focus are blurred at the level of circles this many times smaller: the edges of the near layer
+/// show more than those of the far one.
+#define GLOAM_DOF_NEAR_FINER 2.0
+/// Side of the block of texels that a workgroup with workgroup memory keeps: a tile and the texels around it that
+/// kernels read. 16 KiB hold all of it.
+#define GLOAM_DOF_ROOM 28
+/// Farthest texel that a kernel of the coarsest level reads: its tiles have one texel.
+#define GLOAM_DOF_MOST_TAPS 13
+/// Threads of a workgroup that runs over a tile. On lavapipe, where they run one after another, each loads what they
+/// share, so few are faster.
+#define GLOAM_DOF_THREADS 64
+#define GLOAM_DOF_THREADS_IN_TURN 8
+/// Bits of a gather's work. Below them: the greatest square of the distance of a texel that a kernel reads.
+#define GLOAM_DOF_FILLS 256  // the tile has pixels before the focus, behind which the far layer is filled in
+#define GLOAM_DOF_EMPTY 512  // the tile's texels are set to zero
+/// What a prefilter writes: bits. A tile without circles before the focus has zeros in the near layer.
+#define GLOAM_DOF_WANTS_FAR 1
+#define GLOAM_DOF_WANTS_NEAR 2
+#define GLOAM_DOF_HAS_NEAR 4
 /// Most workgroups of an indirect dispatch along x.
 #define GLOAM_DOF_ROW 32768
+/// Most sprites that start in a tile. A tile with more bright pixels has none: they stay in the layers.
+#define GLOAM_DOF_TILE_SPRITES 40
+/// Most sprites that reach a tile.
+#define GLOAM_DOF_REACHING_SPRITES 144
 
-/// Lists of tiles, by what runs in them.
-#define GLOAM_DOF_PREFILTER_FAR 0   // the far layer only
-#define GLOAM_DOF_PREFILTER_BOTH 1  // the far and the near layer
-#define GLOAM_DOF_FAR_FIRST 2       // passes of the far layer that later passes read in neighbouring texels
-#define GLOAM_DOF_NEAR_FIRST 3
-#define GLOAM_DOF_FAR_LAST 4  // the last pass of the far layer
-#define GLOAM_DOF_NEAR_LAST 5
-#define GLOAM_DOF_COMPOSE_FAR 6
-#define GLOAM_DOF_COMPOSE_BOTH 7
-#define GLOAM_DOF_BEYOND_FIRST 8  // as 3, of the light beyond
-#define GLOAM_DOF_BEYOND_LAST 9   // tiles that show something before the focus near something else
-#define GLOAM_DOF_LISTS 10
+/// Lists of tiles, by the pass that runs in them. The first four hold pairs of a tile and a level.
+#define GLOAM_DOF_PREFILTER_FINE 0    // of level 0
+#define GLOAM_DOF_PREFILTER_COARSE 1  // of all other levels
+#define GLOAM_DOF_FAR 2               // gathers of the far layer
+#define GLOAM_DOF_NEAR 3              // gathers of the near layer
+#define GLOAM_DOF_COMPOSE_FAR 4       // tiles that no near layer reaches
+#define GLOAM_DOF_COMPOSE_BOTH 5
+// These only count.
+#define GLOAM_DOF_COARSER 6   // tiles with circles greater than dof.radius
+#define GLOAM_DOF_SPRITES 7   // sprites
+#define GLOAM_DOF_OVERFLOW 8  // tiles with more bright pixels than sprites, and tiles that more sprites reach than fit
+#define GLOAM_DOF_LISTS 9
 
 GLOAM_SHARED_BEGIN
 
-/// Constants of one view. Layers are the images that are blurred: behind the focus (far) and before it (near).
+/// Constants of one view. Layers are the images that are blurred: what lies before the focus (near) and all else (far).
+/// All levels of a layer lie in one image.
 struct DofConstants {
-  uvec2 size;        // of the picture, pixels
-  uvec2 layer_size;  // of a layer, texels
-  uvec2 tiles;       // of GLOAM_DOF_TILE pixels
+  uvec2 size;   // of the picture, pixels
+  uvec2 tiles;  // of GLOAM_DOF_TILE pixels
   vec2 inverse_size;
+  vec2 inverse_layers;  // 1 / size of the image of all levels of a layer
   // Radius of the circle of confusion in pixels, positive behind the focus: offset + slope · depth (of the depth
   // image).
   float coc_offset;
   float coc_slope;
-  float radius;  // greatest radius, pixels
-  float blend;   // pixels over which the picture passes from sharp to blurred
-  float reach;   // radius of a kernel, as a multiple of the circle's
-  int spread;    // tiles that a kernel of the greatest radius reaches
+  float radius;  // greatest radius, pixels; larger ones count as that
+  float limit;   // greatest radius that does not count as coarser, pixels
+  // Where circles pass from level k to level k + 1: radii in pixels.
+  float from[GLOAM_DOF_LEVELS];
+  float to[GLOAM_DOF_LEVELS];
+  ivec2 corner[GLOAM_DOF_LEVELS];  // of a level in the image of all levels
+  int taps[GLOAM_DOF_LEVELS];      // the farthest texel that a kernel of the level reads
+  int spread[GLOAM_DOF_LEVELS];    // tiles beyond a gathered one whose texels of the level are read
+  int first_level;
+  int last_level;
 };
 
 /// A list of tiles: arguments of an indirect dispatch with one workgroup for each, then their number.
@@ -57,6 +79,52 @@ struct DofList {
   uint groups_y;
   uint groups_z;
   uint count;
+};
+
+/// An item of a list: a tile at a level.
+struct DofEntry {
+  uint place;  // x | y << 16
+  int level;
+  int work;  // of gathers: GLOAM_DOF_FILLS and so on; of prefilters: GLOAM_DOF_WANTS_FAR and so on
+};
+
+/// Circles of the pixels of a tile. Masks: bit k for level k.
+struct DofTileBounds {
+  uint far;           // levels of pixels behind the focus
+  uint near;          // levels of pixels before the focus
+  uint fill;          // levels at which the far layer is filled in behind them
+  uint open;          // 1: some pixels are not before the focus
+  float far_radius;   // greatest radius behind the focus, pixels; 0: none
+  float near_radius;  // greatest radius before the focus, pixels; 0: none
+};
+
+/// Circles of the whole picture: of all tiles together.
+struct DofPictureBounds {
+  uint far_levels;
+  uint near_levels;
+  uint near_radius;  // bits of the float
+  uint radius;       // greatest on both sides of the focus, bits of the float
+};
+
+/// The blur of a tile.
+struct DofTileReach {
+  uint far;           // levels of the far layer that are composed
+  uint near;          // levels of the near layer that reach the tile
+  float near_radius;  // greatest radius of circles before the focus that reach the tile, pixels
+};
+
+/// Light of pixels of a block of 2 × 2, or of 4 × 4 where circles are wide, that are much brighter than
+/// their surroundings, without the share that stays in the layers.
+struct DofSprite {
+  vec2 place;  // centre of the light, pixels; the middle of the first pixel is 0
+  float coc;   // radius in pixels, positive behind the focus
+  vec3 light;
+};
+
+/// Bright pixels of a tile.
+struct DofTileSprites {
+  uint count;
+  float surroundings;  // light that a bright pixel leaves to the layers; < 0: the tile has no sprites
 };
 
 GLOAM_SHARED_END

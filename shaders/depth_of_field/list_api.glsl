@@ -9,19 +9,20 @@
 // bindings, and include this after the uniform `dof`.
 
 layout(set = 0, binding = GLOAM_DOF_LIST_BINDING, scalar) readonly buffer Lists { DofList lists[]; };
-layout(set = 0, binding = GLOAM_DOF_LIST_BINDING + 1, scalar) readonly buffer Entries { uint entries[]; };
+layout(set = 0, binding = GLOAM_DOF_LIST_BINDING + 1, scalar) readonly buffer Entries { DofEntry entries[]; };
 
 struct DofTile {
   ivec2 place;
-  int taps;  // the farthest texel that a kernel reads
+  int level;
+  int work;  // DofEntry
 };
 
 // The tile of this workgroup. False: there is none for it.
 bool listed_tile(uint list, out DofTile tile) {
   uint index = gl_WorkGroupID.y * uint(GLOAM_DOF_ROW) + gl_WorkGroupID.x;
   uint count = lists[list].count;
-  uint entry = entries[list * dof.tiles.x * dof.tiles.y + min(index, max(count, 1u) - 1u)];
-  tile = DofTile(ivec2(entry & 0xFFFu, entry >> 12 & 0xFFFu), int(entry >> 24));
+  DofEntry entry = entries[list * dof.tiles.x * dof.tiles.y * uint(GLOAM_DOF_LEVELS) + min(index, max(count, 1u) - 1u)];
+  tile = DofTile(ivec2(entry.place & 0xFFFFu, entry.place >> 16), entry.level, entry.work);
   return index < count;
 }
 

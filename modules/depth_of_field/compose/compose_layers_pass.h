@@ -7,10 +7,10 @@
 
 namespace gloam {
 
-/// in_turn: on a device that runs the threads of a workgroup in turn, where a thread goes through eight rows of texels.
-[[nodiscard]] ComputeProgram dof_compose_program(std::uint32_t scale, bool near, bool in_turn);
+[[nodiscard]] ComputeProgram dof_compose_program(Bokeh bokeh, bool near);
 
-/// Lays the blurred layers over LitOutput, in place.
-void add_dof_compose_pass(FrameBuilder& frame, const DofFrame& dof, const DofLayers& blurred);
+/// Lays the gathered layers and the sprites over LitOutput, in place.
+void add_dof_compose_pass(FrameBuilder& frame, const DofFrame& dof, const DofLayers& gathered,
+                          const DofSprites& sprites);
 
 }  // namespace gloam

@@ -47,7 +47,7 @@ DofInput objects_in_depth(std::uint32_t width, std::uint32_t height, std::uint32
   const auto between = [&](float low, float high) { return std::uniform_real_distribution<float>(low, high)(random); };
   for (std::uint32_t y = 0; y < height; ++y)
     for (std::uint32_t x = 0; x < width; ++x)
-      in.coc[in.at(x, y)] = 24.3f - 31.0f * static_cast<float>(y) / static_cast<float>(height);
+      in.coc[in.at(x, y)] = 24.317f - 31.0f * static_cast<float>(y) / static_cast<float>(height);
   for (int object = 0; object < 6; ++object) {
     const float circle = object == 0 ? 0.1f : between(-20.0f, 35.0f);
     const auto left = static_cast<std::uint32_t>(between(0.0f, 0.8f) * static_cast<float>(width));

@@ -13,6 +13,7 @@
 #include "engine/render/kernel_check/kernel_lab.h"
 #include "modules/depth_of_field/components.h"
 #include "modules/depth_of_field/knobs.h"
+#include "shaders/depth_of_field/depth_of_field_shared.h"
 
 namespace gloam {
 

@@ -5,237 +5,369 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <functional>
+#include <vector>
+
+#include "modules/depth_of_field/levels/levels.h"
 
 namespace gloam {
 namespace {
 
+constexpr double kTwinFocus = 0.5;
+constexpr double kBesideNear = -1.0, kNoLight = -2.0;  // alpha of far texels
+constexpr double kNearFiner = GLOAM_DOF_NEAR_FINER;
+constexpr int kTwinTile = GLOAM_DOF_TILE;
+
+bool all_finite(const dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+double brightest(const dvec3& v) { return std::max({v.x, v.y, v.z}); }
+double smooth_ramp(double from, double to, double x) {
+  const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
+  return t * t * (3.0 - 2.0 * t);
+}
+
 class DofTwin {
  public:
-  explicit DofTwin(const DofInput& in) : in_(in), scale_(static_cast<int>(in.knobs.scale())) {
-    columns_ = (static_cast<int>(in.width) + scale_ - 1) / scale_;
-    rows_ = (static_cast<int>(in.height) + scale_ - 1) / scale_;
+  explicit DofTwin(const DofInput& in)
+      : in_(in), width_(static_cast<int>(in.width)), height_(static_cast<int>(in.height)) {
+    static_cast<void>(set_dof_levels({in.width, in.height}, in.knobs, in.bokeh, c_));
   }
 
   /// The light after the module.
-  [[nodiscard]] std::vector<dvec4> light() const {
-    const Layer far = blurred(filtered(false), false), near = blurred(filtered(true), true);
-    const Layer beyond = blurred(filtered(true, true), true);
+  [[nodiscard]] std::vector<dvec4> light() {
+    find_tiles();
+    find_sprites();
+    for (int k = c_.first_level; k <= c_.last_level; ++k) {
+      filter(k);
+      gather(k);
+    }
     std::vector<dvec4> result;
-    for (int y = 0; y < static_cast<int>(in_.height); ++y)
-      for (int x = 0; x < static_cast<int>(in_.width); ++x) result.push_back(composed(x, y, far, near, beyond));
+    for (int y = 0; y < height_; ++y)
+      for (int x = 0; x < width_; ++x) result.emplace_back(composed(x, y), 1.0);
     return result;
   }
 
  private:
-  using Layer = std::vector<dvec4>;
-  static constexpr double kSlanted = 0.88;
-  static constexpr int kTile = 16;
+  struct Level {
+    int columns = 0, rows = 0;
+    std::vector<dvec4> far, near, blurred_far, blurred_near;
+    std::vector<double> near_radius;
+    [[nodiscard]] std::size_t at(int x, int y) const {
+      return static_cast<std::size_t>(std::clamp(y, 0, rows - 1) * columns + std::clamp(x, 0, columns - 1));
+    }
+  };
+  struct Sprite {
+    double x = 0.0, y = 0.0, coc = 0.0;
+    dvec3 light{0.0};
+  };
 
+  static dvec4 rounded(const dvec4& v) { return dvec4(dof_light(dof_half(vec4(glm::min(v, dvec4(65504.0)))))); }
+
+  [[nodiscard]] std::size_t pixel(int x, int y) const {
+    return in_.at(static_cast<std::uint32_t>(std::clamp(x, 0, width_ - 1)),
+                  static_cast<std::uint32_t>(std::clamp(y, 0, height_ - 1)));
+  }
   [[nodiscard]] double coc(int x, int y) const {
-    const int cx = std::clamp(x, 0, static_cast<int>(in_.width) - 1);
-    const int cy = std::clamp(y, 0, static_cast<int>(in_.height) - 1);
-    const double value = in_.coc[in_.at(static_cast<std::uint32_t>(cx), static_cast<std::uint32_t>(cy))];
-    return std::clamp(value, -static_cast<double>(in_.knobs.radius), static_cast<double>(in_.knobs.radius));
+    return std::clamp(static_cast<double>(in_.coc[pixel(x, y)]), -double{c_.radius}, double{c_.radius});
   }
-  [[nodiscard]] dvec3 lit(int x, int y) const {
-    const int cx = std::clamp(x, 0, static_cast<int>(in_.width) - 1);
-    const int cy = std::clamp(y, 0, static_cast<int>(in_.height) - 1);
-    return dvec3(
-        vec3(dof_light(dof_half(in_.light[in_.at(static_cast<std::uint32_t>(cx), static_cast<std::uint32_t>(cy))]))));
-  }
-  [[nodiscard]] double share(double circle) const {
-    return std::clamp((circle - 0.5) / (scale_ == 2 ? 2.5 : 0.75), 0.0, 1.0);
-  }
-  static dvec4 rounded(const dvec4& v) { return dvec4(dof_light(dof_half(vec4(v)))); }
+  [[nodiscard]] dvec3 lit(int x, int y) const { return dvec3(vec3(dof_light(dof_half(in_.light[pixel(x, y)])))); }
 
-  [[nodiscard]] Layer filtered(bool near, bool beyond = false) const {
-    Layer layer;
-    for (int y = 0; y < rows_; ++y)
-      for (int x = 0; x < columns_; ++x) {
-        dvec3 sum(0.0);
-        double weights = 0.0, squares = 0.0;
-        for (int dy = 0; dy < scale_; ++dy)
-          for (int dx = 0; dx < scale_; ++dx) {
-            const int px = x * scale_ + dx, py = y * scale_ + dy;
-            const double circle = coc(px, py);
-            const double before = beyond ? 1.0 - share(-circle) : share(-circle);
-            const double weight = near ? before / (scale_ * scale_) : circle >= 0.5 ? circle : 0.0;
-            sum += weight * lit(px, py);
-            weights += weight;
-            squares += weight * weight;
-          }
-        if (near)
-          layer.push_back(rounded(dvec4(sum, weights)));
-        else if (weights > 0.0)
-          layer.push_back(rounded(dvec4(sum / weights, squares / weights / static_cast<double>(in_.knobs.radius))));
-        else
-          layer.push_back(dvec4(0.0));
-      }
-    return layer;
-  }
-
-  [[nodiscard]] dvec4 texel(const Layer& layer, int x, int y) const {
-    return layer[static_cast<std::size_t>(std::clamp(y, 0, rows_ - 1) * columns_ + std::clamp(x, 0, columns_ - 1))];
-  }
-
-  /// Radius of a kernel as a multiple of the circle's.
-  [[nodiscard]] double widening() const { return in_.bokeh == Bokeh::round ? 1.4 : 1.0; }
-  /// The greatest kernel before the focus that reaches a tile.
-  [[nodiscard]] double reach(int tx, int ty) const {
-    const int across = (static_cast<int>(in_.width) + kTile - 1) / kTile;
-    const int down = (static_cast<int>(in_.height) + kTile - 1) / kTile;
-    tx = std::clamp(tx, 0, across - 1);
-    ty = std::clamp(ty, 0, down - 1);
-    double most = 0.0;
-    for (int y = 0; y < static_cast<int>(in_.height); ++y)
-      for (int x = 0; x < static_cast<int>(in_.width); ++x) {
-        const int apart = std::max(std::abs(x / kTile - tx), std::abs(y / kTile - ty));
-        const double radius = -coc(x, y) * widening();
-        if (-coc(x, y) >= 0.5 && radius > kTile * std::max(apart - 1, 0)) most = std::max(most, radius);
-      }
-    return dof_light(dof_half(vec4(static_cast<float>(most)))).x;
-  }
-  [[nodiscard]] std::vector<double> near_radii() const {
-    const int across = (static_cast<int>(in_.width) + kTile - 1) / kTile;
-    const int down = (static_cast<int>(in_.height) + kTile - 1) / kTile;
-    std::vector<double> reaches;
-    for (int y = 0; y < down; ++y)
-      for (int x = 0; x < across; ++x) reaches.push_back(reach(x, y));
-    const auto at = [&](int x, int y) {
-      return reaches[static_cast<std::size_t>(std::clamp(y, 0, down - 1) * across + std::clamp(x, 0, across - 1))];
+  [[nodiscard]] double share(int level, double radius) const {
+    const auto passed = [&](int k) {
+      return std::clamp((radius - double{c_.from[k]}) / (double{c_.to[k]} - double{c_.from[k]}), 0.0, 1.0);
     };
-    std::vector<double> radii;
-    for (int y = 0; y < rows_; ++y)
-      for (int x = 0; x < columns_; ++x) {
-        const double u = (x + 0.5) * scale_ / kTile - 0.5, v = (y + 0.5) * scale_ / kTile - 0.5;
-        const int left = static_cast<int>(std::floor(u)), top = static_cast<int>(std::floor(v));
-        const double s = u - left, t = v - top;
-        const double radius = (at(left, top) * (1.0 - s) + at(left + 1, top) * s) * (1.0 - t) +
-                              (at(left, top + 1) * (1.0 - s) + at(left + 1, top + 1) * s) * t;
-        radii.push_back(at(x * scale_ / kTile, y * scale_ / kTile) > 0.0 ? radius / scale_ : 0.0);
-      }
-    return radii;
+    return (level == c_.first_level ? 1.0 : passed(level - 1)) * (level == c_.last_level ? 1.0 : 1.0 - passed(level));
   }
 
-  /// The weighted mean of texels of a line. place(n): of the n-th step from (x, y); a place between two rows counts
-  /// half for each. weight(n, radius): of a step, for n from `first`. spread: the light of a place is the mean of those
-  /// this far above and below it.
-  [[nodiscard]] dvec4 line(const Layer& layer, bool near, int x, int y, double radius, int first,
-                           const std::function<glm::dvec2(int)>& place,
-                           const std::function<double(int, double)>& weight, double spread = 0.0) const {
+  [[nodiscard]] double distance(double x, double y) const {
+    x = std::abs(x);
+    y = std::abs(y);
+    if (in_.bokeh == Bokeh::round) return std::sqrt(x * x + y * y);
+    return std::max(x, 0.5 * x + std::sqrt(0.75) * y);
+  }
+  /// Weight of light at a distance from where it is, over an aperture of this radius.
+  [[nodiscard]] double spread(double away, double radius) const {
+    const double area =
+        (in_.bokeh == Bokeh::round ? 3.14159265358979 : std::sqrt(12.0)) * (radius * radius + 1.0 / 12.0);
+    return std::clamp(radius + 0.5 - away, 0.0, 1.0) / area;
+  }
+
+  [[nodiscard]] int tile_of(int x, int y) const { return y / kTwinTile * across_ + x / kTwinTile; }
+  [[nodiscard]] double sprite_share(int x, int y) const {
+    const double around = around_[static_cast<std::size_t>(tile_of(x, y))], bright = brightest(lit(x, y));
+    const double circle = coc(x, y);
+    const bool is_sprite = around >= 0.0 && std::abs(circle) >= kTwinFocus && bright > 1e-6 &&
+                           bright > around * (40.0 + 0.05 * 3.2 * circle * circle);
+    return is_sprite ? 1.0 - around / bright : 0.0;
+  }
+  /// Levels of the pixels of a tile, before and behind the focus, and of those that are composed in it.
+  struct Tile {
+    unsigned far = 0, near = 0, fill = 0;
+    bool open = false;
+    double near_radius = 0.0;
+    unsigned composed_far = 0, composed_near = 0;
+  };
+  [[nodiscard]] double lowest(int k) const { return k == c_.first_level ? kTwinFocus : double{c_.from[k - 1]}; }
+  [[nodiscard]] double greatest(int k) const { return k == c_.last_level ? 1e9 : double{c_.to[k]}; }
+  void find_tiles() {
+    across_ = (width_ + kTwinTile - 1) / kTwinTile;
+    down_ = (height_ + kTwinTile - 1) / kTwinTile;
+    tiles_.resize(static_cast<std::size_t>(across_ * down_));
+    for (int y = 0; y < height_; ++y)
+      for (int x = 0; x < width_; ++x) {
+        Tile& tile = tiles_[static_cast<std::size_t>(tile_of(x, y))];
+        const double circle = coc(x, y);
+        for (int k = c_.first_level; k <= c_.last_level; ++k) {
+          const bool is_level = std::abs(circle) >= lowest(k) && std::abs(circle) < greatest(k);
+          (circle > 0.0 ? tile.far : tile.fill) |= is_level ? 1u << k : 0u;
+          const bool is_near = circle <= -kNearFiner * (k == c_.first_level ? kTwinFocus / kNearFiner : lowest(k)) &&
+                               circle > -kNearFiner * greatest(k);
+          tile.near |= is_near ? 1u << k : 0u;
+        }
+        tile.open = tile.open || circle > -kTwinFocus;
+        if (circle <= -kTwinFocus) tile.near_radius = std::max(tile.near_radius, -circle);
+      }
+    for (int y = 0; y < down_; ++y)
+      for (int x = 0; x < across_; ++x) reach_tile(x, y);
+  }
+  void reach_tile(int tx, int ty) {
+    Tile& own = tiles_[static_cast<std::size_t>(ty * across_ + tx)];
+    own.composed_far = own.far;
+    for (int y = 0; y < down_; ++y)
+      for (int x = 0; x < across_; ++x) {
+        const Tile& other = tiles_[static_cast<std::size_t>(y * across_ + x)];
+        const int apart = std::max(std::abs(x - tx), std::abs(y - ty));
+        for (int k = c_.first_level; k <= c_.last_level; ++k) {
+          const unsigned bit = 1u << k;
+          const double between = k == 0 ? 1.0 : 1.5 * (1 << k),
+                       radius = std::min(other.near_radius, kNearFiner * greatest(k));
+          if (radius + between > kTwinTile * std::max(apart - 1, 0)) own.composed_near |= other.near & bit;
+          if (other.open && apart <= c_.spread[k]) own.composed_far |= own.fill & bit;
+        }
+      }
+  }
+
+  /// Light that sprites take, and its place and circle, weighted by its brightness.
+  struct Bright {
+    dvec3 light{0.0}, place{0.0};
+    double weight = 0.0;
+    void add(const Bright& other) {
+      light += other.light;
+      place += other.place;
+      weight += other.weight;
+    }
+    void append_to(std::vector<Sprite>& sprites) const {
+      if (weight > 0.0) sprites.push_back({place.x / weight, place.y / weight, place.z / weight, light});
+    }
+  };
+  [[nodiscard]] Bright bright_block(int left, int top) const {
+    Bright sum;
+    for (int y = top; y < std::min(top + 2, height_); ++y)
+      for (int x = left; x < std::min(left + 2, width_); ++x) {
+        const double part = all_finite(lit(x, y)) ? sprite_share(x, y) : 0.0;
+        if (part <= 0.0) continue;
+        const double weight = part * brightest(lit(x, y));
+        sum.add({part * lit(x, y), weight * dvec3(x, y, coc(x, y)), weight});
+      }
+    return sum;
+  }
+  /// Of a block of 16 pixels: one where circles are wide, else one for each 4 of them.
+  void add_sprites(int left, int top, std::vector<Sprite>& sprites) const {
+    Bright wide;
+    for (int j = 0; j < 4; ++j) {
+      const Bright found = bright_block(left + 2 * (j & 1), top + 2 * (j >> 1));
+      if (std::abs(found.place.z) >= 5.0 * found.weight)
+        wide.add(found);
+      else
+        found.append_to(sprites);
+    }
+    wide.append_to(sprites);
+  }
+  void find_sprites() {
+    around_.assign(tiles_.size(), -1.0);
+    for (int tile = 0; tile < across_ * down_; ++tile) {
+      const int left = tile % across_ * kTwinTile, top = tile / across_ * kTwinTile;
+      const int right = std::min(left + kTwinTile, width_), bottom = std::min(top + kTwinTile, height_);
+      double roots = 0.0;
+      for (int y = top; y < top + kTwinTile; y += 2)
+        for (int x = left; x < left + kTwinTile; x += 2)
+          roots += all_finite(lit(x, y)) ? std::sqrt(std::sqrt(std::max(brightest(lit(x, y)), 0.0))) : 0.0;
+      const Tile& levels = tiles_[static_cast<std::size_t>(tile)];
+      if ((levels.far | levels.near) <= 1u) continue;
+      around_[static_cast<std::size_t>(tile)] = std::pow(roots / 64.0, 4.0);
+      std::vector<Sprite> found;
+      for (int y = top; y < bottom; y += 4)
+        for (int x = left; x < right; x += 4) add_sprites(x, y, found);
+      if (found.size() > GLOAM_DOF_TILE_SPRITES || found.empty())
+        around_[static_cast<std::size_t>(tile)] = -1.0;
+      else
+        sprites_.insert(sprites_.end(), found.begin(), found.end());
+    }
+  }
+
+  [[nodiscard]] double kernel(double circle, int k) const {
+    const double greatest = k == c_.last_level ? double{c_.radius} : double{c_.to[k]};
+    return dof_kernel_radius(in_.bokeh, std::min(circle, greatest), k);
+  }
+
+  void filter(int k) {
+    const int scale = 1 << k;
+    Level& level = levels_[k];
+    level.columns = (width_ + scale - 1) / scale;
+    level.rows = (height_ + scale - 1) / scale;
+    for (int row = 0; row < level.rows; ++row)
+      for (int column = 0; column < level.columns; ++column) filter_texel(k, column, row);
+  }
+  void filter_texel(int k, int column, int row) {
+    Level& level = levels_[k];
+    const int scale = 1 << k;
+    dvec3 far(0.0), focused(0.0);
+    dvec4 near(0.0);
+    double far_weight = 0.0, far_circle = 0.0, far_bright = 0.0, focus_weight = 0.0, circles = 0.0;
+    bool before = false;
+    const double least = k == c_.first_level ? kTwinFocus : std::max(0.5 * c_.from[k - 1], kTwinFocus);
+    for (int y = row * scale; y < (row + 1) * scale; ++y)
+      for (int x = column * scale; x < (column + 1) * scale; ++x) {
+        const int px = std::min(x, width_ - 1), py = std::min(y, height_ - 1);
+        const double circle = coc(px, py);
+        before = before || circle <= -kTwinFocus;
+        if (!all_finite(lit(px, py))) continue;
+        const dvec3 light = lit(px, py) * (1.0 - sprite_share(px, py));
+        if (circle >= least) {
+          const double weight = std::min(circle, 1.0);
+          far += weight * light;
+          far_weight += weight;
+          far_bright += weight * (brightest(light) + 1e-4);
+          far_circle += weight * (brightest(light) + 1e-4) * circle;
+        } else if (circle > -kTwinFocus) {
+          focused += light;
+          focus_weight += 1.0;
+        } else {
+          near += share(k, -circle / kNearFiner) * dvec4(light, 1.0);
+          circles += share(k, -circle / kNearFiner) * -circle;
+        }
+      }
+    dvec4 texel(0.0, 0.0, 0.0, kNoLight);
+    if (focus_weight > 0.0) texel = dvec4(focused / focus_weight, before ? kBesideNear : 0.0);
+    if (far_weight > 0.0)
+      texel = dvec4(far / far_weight, std::floor(kernel(far_circle / far_bright, k) * 16.0 + 0.5) / 16.0);
+    level.far.push_back(rounded(texel));
+    // The share is stored in twelfths, and the radius in eighths.
+    const double part = std::floor(near.w / static_cast<double>(scale * scale) * 12.0 + 0.5);
+    const double radius = dof_kernel_radius(in_.bokeh, near.w > 0.0 ? circles / near.w : 0.0, k);
+    const dvec3 light = near.w > 0.0 ? dvec3(near) / near.w * (part / 12.0) : dvec3(0.0);
+    level.near.emplace_back(dvec3(rounded(dvec4(light, 0.0))), part / 12.0);
+    level.near_radius.push_back(std::floor(radius * 8.0 + 0.5) / 8.0);
+  }
+
+  void gather(int k) {
+    Level& level = levels_[k];
+    for (int y = 0; y < level.rows; ++y)
+      for (int x = 0; x < level.columns; ++x) {
+        level.blurred_far.push_back(rounded(gather_far(k, x, y)));
+        level.blurred_near.push_back(rounded(gather_near(k, x, y)));
+      }
+  }
+  [[nodiscard]] dvec4 gather_far(int k, int x, int y) const {
+    const Level& level = levels_[k];
+    const dvec4 own = level.far[level.at(x, y)];
+    dvec4 front(0.0), back(0.0), fill(0.0);
+    for (int dy = -c_.taps[k]; dy <= c_.taps[k]; ++dy)
+      for (int dx = -c_.taps[k]; dx <= c_.taps[k]; ++dx) {
+        const dvec4 other = level.far[level.at(x + dx, y + dy)];
+        const dvec4 counted(dvec3(other), 1.0);
+        if (other.w > 0.0 && own.w > 0.0)
+          (other.w < own.w ? front : back) += spread(distance(dx, dy), std::min(other.w, own.w)) * counted;
+        if (other.w > kNoLight && dx * dx + dy * dy <= fill_texels(k))
+          fill += counted / std::pow(dx * dx + dy * dy + 0.25, 2);
+      }
+    if (own.w > 0.0) {
+      front /= std::max(front.w, 1.0);
+      return dvec4(dvec3(front) + (1.0 - front.w) * dvec3(back) / back.w, 1.0) * (own.w / GLOAM_DOF_ROOM);
+    }
+    return own.w < 0.0 && fill.w > 0.0 ? fill / fill.w / 256.0 : dvec4(0.0);
+  }
+  [[nodiscard]] int fill_texels(int k) const {
+    return dof_texels(in_.bokeh, kernel(k == c_.last_level ? double{c_.radius} : double{c_.to[k]}, k));
+  }
+  [[nodiscard]] dvec4 gather_near(int k, int x, int y) const {
+    const Level& level = levels_[k];
     dvec4 sum(0.0);
-    double total = 0.0;
-    for (int n = first; n <= 45; ++n) {
-      const double w = weight(n, radius);
-      if (w <= 0.0) continue;
-      const glm::dvec2 at = place(n);
-      for (const double y_at : {at.y - spread, at.y + spread})
-        for (const double row : {std::floor(y_at), std::ceil(y_at)}) {
-          const dvec4 value = texel(layer, static_cast<int>(at.x), static_cast<int>(row));
-          const double counted = 0.25 * w * (near ? 1.0 : value.w);
-          sum += counted * value;
-          total += counted;
-        }
-    }
-    const dvec4 mean = total > 0.0 ? sum / total : dvec4(0.0);
-    return near ? mean : dvec4(dvec3(mean), texel(layer, x, y).w);
+    double radii = 0.0;
+    for (int dy = -c_.taps[k]; dy <= c_.taps[k]; ++dy)
+      for (int dx = -c_.taps[k]; dx <= c_.taps[k]; ++dx) {
+        const std::size_t other = level.at(x + dx, y + dy);
+        const dvec4 counted = spread(distance(dx, dy), level.near_radius[other]) * level.near[other];
+        sum += counted;
+        radii += counted.w * level.near_radius[other];
+      }
+    if (sum.w <= 0.0) return sum;
+    // Below a radius of 2.4 the weights of a whole kernel are made to sum to 1.
+    const double radius = radii / sum.w;
+    double whole = 0.0;
+    for (int dy = -3; dy <= 3; ++dy)
+      for (int dx = -3; dx <= 3; ++dx) whole += spread(distance(dx, dy), radius);
+    if (radius < 2.4) sum /= whole;
+    return sum / std::max(sum.w, 1.0);
   }
 
-  [[nodiscard]] Layer blurred(const Layer& layer, bool near) const {
-    const std::vector<double> reaching = near ? near_radii() : std::vector<double>();
-    const auto each = [&](const std::function<dvec4(int, int, double)>& filter) {
-      Layer result;
-      for (int y = 0; y < rows_; ++y)
-        for (int x = 0; x < columns_; ++x) {
-          const double radius =
-              near ? reaching[static_cast<std::size_t>(y * columns_ + x)]
-                   : texel(layer, x, y).w * widening() * static_cast<double>(in_.knobs.radius) / scale_;
-          result.push_back(rounded(filter(x, y, radius)));
-        }
-      return result;
+  /// A gathered layer at a pixel, interpolated.
+  /// Texels in tiles that do not compose the level are zero.
+  [[nodiscard]] dvec4 at_pixel(unsigned Tile::*composed, const std::vector<dvec4>& layer, int k, int x, int y) const {
+    const Level& level = levels_[k];
+    const auto is_composed = [&](int px, int py) {
+      return (tiles_[static_cast<std::size_t>(tile_of(px, py))].*composed >> k & 1u) != 0;
     };
-    if (in_.bokeh == Bokeh::round) {
-      const auto gauss = [](int n, double radius) {
-        const double t = n / std::max(radius, 0.001);
-        return std::exp(-3.0 * t * t) * std::pow(std::max(1.0 - t * t, 0.0), 2);
-      };
-      const Layer rows = each([&](int x, int y, double radius) {
-        return line(
-            layer, near, x, y, radius, -45, [&](int n) { return glm::dvec2(x + n, y); }, gauss);
-      });
-      return each([&](int x, int y, double radius) {
-        return line(
-            rows, near, x, y, radius, -45, [&](int n) { return glm::dvec2(x, y + n); }, gauss);
-      });
-    }
-    return hexagon(layer, near, each);
-  }
-
-  static double cover(int n, double length) {
-    return n == 0 ? std::clamp(length, 1e-3, 0.5) : std::clamp(length + 0.5 - n, 0.0, 1.0);
-  }
-
-  template <class Each>
-  [[nodiscard]] Layer hexagon(const Layer& layer, bool near, const Each& each) const {
-    const auto upright = [&](const Layer& from, int x, int y, double radius) {
-      return line(
-          from, near, x, y, radius, 0, [&](int n) { return glm::dvec2(x, y - n); }, cover);
+    if (!is_composed(x, y)) return dvec4(0.0);
+    const auto at = [&](int column, int row) {
+      column = std::clamp(column, 0, level.columns - 1);
+      row = std::clamp(row, 0, level.rows - 1);
+      return is_composed(column << k, row << k) ? layer[level.at(column, row)] : dvec4(0.0);
     };
-    const auto right = [&](const Layer& from, int x, int y, double radius) {
-      return line(
-          from, near, x, y, kSlanted * radius, 0, [&](int n) { return glm::dvec2(x + n, y + 0.5 * n); }, cover, 0.5);
-    };
-    const auto left = [&](const Layer& from, int x, int y, double radius) {
-      return line(
-          from, near, x, y, kSlanted * radius, 0, [&](int n) { return glm::dvec2(x - n, y + 0.5 * n); }, cover, 0.5);
-    };
-    const Layer up = each([&](int x, int y, double radius) { return upright(layer, x, y, radius); });
-    const Layer both = each([&](int x, int y, double radius) {
-      return (upright(layer, x, y, radius) + kSlanted * right(layer, x, y, radius)) / (1.0 + kSlanted);
-    });
-    return each([&](int x, int y, double radius) {
-      return (right(up, x, y, radius) + (1.0 + kSlanted) * left(both, x, y, radius)) / (2.0 + kSlanted);
-    });
-  }
-
-  /// A layer at a pixel, interpolated. Of the far layer, light is weighted by alpha and then divided by it. in_tile:
-  /// only between texels of the pixel's tile.
-  [[nodiscard]] dvec4 shown(const Layer& layer, bool near, int x, int y, bool in_tile = false) const {
-    const double u = (x + 0.5) / scale_ - 0.5, v = (y + 0.5) / scale_ - 0.5;
+    const double u = (x + 0.5) / (1 << k) - 0.5, v = (y + 0.5) / (1 << k) - 0.5;
     const int left = static_cast<int>(std::floor(u)), top = static_cast<int>(std::floor(v));
-    dvec4 sum(0.0);
-    for (int dy = 0; dy < 2; ++dy)
-      for (int dx = 0; dx < 2; ++dx) {
-        const double weight = (dx == 0 ? 1.0 - (u - left) : u - left) * (dy == 0 ? 1.0 - (v - top) : v - top);
-        const int side = kTile / scale_, first_x = x / kTile * side, first_y = y / kTile * side;
-        const int column = in_tile ? std::clamp(left + dx, first_x, first_x + side - 1) : left + dx;
-        const int row = in_tile ? std::clamp(top + dy, first_y, first_y + side - 1) : top + dy;
-        const dvec4 value = texel(layer, column, row);
-        sum += weight * (near ? value : dvec4(dvec3(value) * value.w, value.w));
-      }
-    if (near || sum.w <= 0.0) return sum;
-    return {dvec3(sum) / sum.w, sum.w};
+    const double s = u - left, t = v - top;
+    return (1.0 - t) * ((1.0 - s) * at(left, top) + s * at(left + 1, top)) +
+           t * ((1.0 - s) * at(left, top + 1) + s * at(left + 1, top + 1));
   }
 
-  [[nodiscard]] dvec4 composed(int x, int y, const Layer& far, const Layer& near, const Layer& beyond) const {
-    const dvec4 behind = shown(far, false, x, y), before = shown(near, true, x, y);
-    const double blurred = behind.w > 0.0 ? share(coc(x, y)) : 0.0;
-    dvec3 light = lit(x, y) * (1.0 - blurred) + dvec3(behind) * blurred;
-    if (before.w > 0.0) {
-      const dvec4 hidden = shown(beyond, true, x, y, true);
-      const double own = share(-coc(x, y));
-      const dvec4 filled = hidden.w > 1e-4 ? hidden : before;
-      light = (1.0 - own) * light + own * dvec3(filled) / filled.w;
-      light = dvec3(before) + (1.0 - before.w) * light;
+  [[nodiscard]] dvec3 composed(int x, int y) const {
+    const double signed_circle = coc(x, y), circle = std::abs(signed_circle);
+    const bool counts = all_finite(lit(x, y));
+    dvec4 far(0.0), near(0.0);
+    for (int k = c_.first_level; k <= c_.last_level; ++k) {
+      const Level& level = levels_[k];
+      near += at_pixel(&Tile::composed_near, level.blurred_near, k, x, y);
+      const double scale = 1 << k;
+      double part = k == 0 ? 1.0 : std::clamp((circle * circle - 0.25) / (scale * scale - 0.25), 0.0, 1.0);
+      part *= circle >= kTwinFocus ? share(k, circle) : 0.0;
+      const dvec4 found = at_pixel(&Tile::composed_far, level.blurred_far, k, x, y);
+      if (found.w > 0.0) far += part * found / found.w;
     }
-    return dvec4(light, 1.0);
+    near /= std::max(near.w, 1.0);
+    if (!counts && far.w > 0.0) far /= far.w;
+    const dvec3 sharp = counts ? lit(x, y) * (1.0 - sprite_share(x, y)) : dvec3(0.0);
+    dvec3 behind = dvec3(far) + (1.0 - far.w) * sharp, before(0.0);
+    for (const Sprite& sprite : sprites_) {
+      const double radius = dof_kernel_radius(in_.bokeh, std::abs(sprite.coc), 0);
+      const dvec3 light = spread(distance(x - sprite.x, y - sprite.y), radius) * sprite.light;
+      if (sprite.coc > 0.0)
+        behind += light *
+                  (signed_circle <= -kTwinFocus ? 1.0 : smooth_ramp(0.5 * sprite.coc, 0.8 * sprite.coc, signed_circle));
+      else
+        before += light * (1.0 - smooth_ramp(1.25, 1.6, signed_circle / sprite.coc));
+    }
+    const bool alone = signed_circle <= -kTwinFocus && near.w > 1e-4 && far.w <= 0.0;
+    if (alone && !counts) return dvec3(near) / near.w + before;
+    return dvec3(near) + (1.0 - near.w) * behind + before;
   }
 
   const DofInput& in_;
-  int scale_ = 2;
-  int columns_ = 0;
-  int rows_ = 0;
+  int width_, height_;
+  shaders::DofConstants c_{};
+  Level levels_[GLOAM_DOF_LEVELS];
+  int across_ = 0, down_ = 0;  ///< tiles
+  std::vector<Tile> tiles_;
+  std::vector<double> around_;  ///< light around bright pixels of each tile; < 0: it has no sprites
+  std::vector<Sprite> sprites_;
 };
 
 }  // namespace

@@ -104,8 +104,8 @@ std::vector<KernelCheck> dof_kernel_checks() {
           {.name = "kernel.bokeh_energy",
            .sentence = "light of a spot that was one pixel against the light of the pixel",
            .unit = "of the light",
-           // Weights are normalised. Half floats round each pixel by up to 2^-11, in up to four passes.
-           .bound = 0.0025,
+           // The area of a disc in pixels is known to 1 % from a radius of 2 on.
+           .bound = 0.01,
            .advice = kDofAdvice,
            .quick = true,
            .run =

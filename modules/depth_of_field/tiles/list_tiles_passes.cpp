@@ -7,48 +7,58 @@
 namespace gloam {
 namespace {
 
-BufferRef words(FrameBuilder& frame, const char* name, std::uint64_t count) {
+BufferRef buffer_of(FrameBuilder& frame, const char* name, std::uint64_t bytes) {
   gpu::BufferDesc desc;
   desc.name = name;
   desc.module = frame.module();
-  desc.size = count * sizeof(std::uint32_t);
+  desc.size = bytes;
   return frame.graph().create_buffer(desc);
 }
 
 }  // namespace
 
+ComputeProgram dof_reset_program() { return {shaders::depth_of_field::reset_comp}; }
 ComputeProgram dof_bounds_program() { return {shaders::depth_of_field::bounds_comp}; }
 ComputeProgram dof_reach_program() { return {shaders::depth_of_field::reach_comp}; }
-ComputeProgram dof_list_program(std::uint32_t scale, Bokeh bokeh) {
-  return {shaders::depth_of_field::list_comp, {{"kScale", scale}, {"kRound", bokeh == Bokeh::round ? 1u : 0u}}};
+ComputeProgram dof_list_program(Bokeh bokeh) {
+  return {shaders::depth_of_field::list_comp, {{"kHexagonal", bokeh == Bokeh::hexagonal ? 1u : 0u}}};
+}
+
+BufferRef dof_tile_buffer(FrameBuilder& frame, const DofInputs& inputs, const char* name, std::uint64_t size) {
+  return buffer_of(frame, name, std::uint64_t{inputs.constants.tiles.x} * inputs.constants.tiles.y * size);
 }
 
 DofTiles add_dof_tile_passes(FrameBuilder& frame, const DofInputs& inputs) {
   const uvec2 size = inputs.constants.tiles;
   DofTiles tiles;
-  ComputePass bounds(frame, "dof_tile_bounds", dof_bounds_program());
+  ComputePass bounds(frame, "dof_tile_bounds", dof_reset_program());
+  tiles.lists = bounds.write("lists", buffer_of(frame, "dof_lists", GLOAM_DOF_LISTS * sizeof(shaders::DofList)));
+  tiles.picture = bounds.write("picture", buffer_of(frame, "dof_picture", sizeof(shaders::DofPictureBounds)));
+  bounds.dispatch(1);
+  bounds.barrier();
+  bounds.use(dof_bounds_program());
   bounds.read("dof", inputs.block);
   bounds.read("depth_image", inputs.depth);
-  const ImageRef tile =
-      bounds.write("tile_image", create_view_image(frame, "dof_tile_bounds", gpu::Format::rg32_float, GLOAM_DOF_TILE));
-  const BufferRef empty_lists = bounds.write(
-      "lists", words(frame, "dof_lists", GLOAM_DOF_LISTS * sizeof(shaders::DofList) / sizeof(std::uint32_t)));
-  bounds.dispatch_over(glm::max(size, uvec2(GLOAM_DOF_LISTS, 1)));
+  tiles.bounds =
+      bounds.write("bounds", dof_tile_buffer(frame, inputs, "dof_tile_bounds", sizeof(shaders::DofTileBounds)));
+  bounds.dispatch_over(size);
 
   ComputePass reach(frame, "dof_tile_reach", dof_reach_program());
   reach.read("dof", inputs.block);
-  reach.read("tile_image", tile);
-  tiles.reach =
-      reach.write("reach_image", create_view_image(frame, "dof_tile_reach", gpu::Format::rgba16_float, GLOAM_DOF_TILE));
+  reach.read("bounds", tiles.bounds);
+  reach.read("picture", tiles.picture);
+  tiles.reach = reach.write("reached", dof_tile_buffer(frame, inputs, "dof_tile_reach", sizeof(shaders::DofTileReach)));
   reach.dispatch_over(size);
 
-  const std::uint64_t count = std::uint64_t{size.x} * size.y;
-  ComputePass list(frame, "dof_tile_lists", dof_list_program(inputs.scale(), inputs.bokeh));
+  ComputePass list(frame, "dof_tile_lists", dof_list_program(inputs.bokeh));
   list.read("dof", inputs.block);
-  list.read("reach_image", tiles.reach);
-  tiles.lists = list.write("lists", empty_lists);
-  tiles.entries = list.write("entries", words(frame, "dof_list_entries", GLOAM_DOF_LISTS * count));
-  tiles.flags = list.write("tile_flags", words(frame, "dof_tile_flags", count));
+  list.read("bounds", tiles.bounds);
+  list.read("reached", tiles.reach);
+  list.read("picture", tiles.picture);
+  tiles.lists = list.write("lists", tiles.lists);
+  tiles.entries =
+      list.write("entries", dof_tile_buffer(frame, inputs, "dof_list_entries",
+                                            GLOAM_DOF_LISTS * GLOAM_DOF_LEVELS * sizeof(shaders::DofEntry)));
   list.dispatch_over(size);
   return tiles;
 }

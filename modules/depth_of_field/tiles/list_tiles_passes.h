@@ -7,9 +7,14 @@
 
 namespace gloam {
 
+[[nodiscard]] ComputeProgram dof_reset_program();
 [[nodiscard]] ComputeProgram dof_bounds_program();
 [[nodiscard]] ComputeProgram dof_reach_program();
-[[nodiscard]] ComputeProgram dof_list_program(std::uint32_t scale, Bokeh bokeh);
+[[nodiscard]] ComputeProgram dof_list_program(Bokeh bokeh);
+
+/// A buffer with an item for each tile. size: bytes of an item.
+[[nodiscard]] BufferRef dof_tile_buffer(FrameBuilder& frame, const DofInputs& inputs, const char* name,
+                                        std::uint64_t size);
 
 /// Finds the tiles in which something is blurred, and lists those in which each later pass runs.
 [[nodiscard]] DofTiles add_dof_tile_passes(FrameBuilder& frame, const DofInputs& inputs);

@@ -3,75 +3,134 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/depth_of_field/depth_of_field_shared.h"
+#include "shaders/depth_of_field/kernel_api.glsl"
 
-// Makes the layers from the light. Far: the mean light of the texel's pixels behind the focus, each weighted by its
-// circle of confusion, and in alpha the mean circle as a share of the greatest radius; 0 where nothing is blurred.
-// Near: light of the pixels before the focus, multiplied by their share, which is in alpha. Beyond: all other light, in
-// the same way. Light that is not finite counts as absent.
+// Makes the texels of one level of a tile from the light.
+//
+// Far: light of the pixels behind the focus, and in alpha the radius of their kernel. If
+// there are none, the light of the pixels in focus and alpha 0, or kBeside if other pixels of the texel are before the
+// focus; if there are none of these either, kNothing. Near: light of the pixels before the focus that this level blurs,
+// multiplied by their share in the texel, and in alpha the share and the radius of their kernel (packed_near()). Light
+// that is not finite counts as absent, and sprites take theirs.
 
-layout(local_size_x = GLOAM_DOF_BLOCK, local_size_y = GLOAM_DOF_BLOCK) in;
-layout(constant_id = 0) const uint kScale = 2u;  // pixels a texel
-layout(constant_id = 1) const uint kNear = 0u;   // 1: the layers near and beyond, too
+layout(local_size_x_id = 2) in;
+layout(constant_id = 1) const uint kFine = 0u;  // 1: level 0
+layout(constant_id = 2) const int kThreads = GLOAM_DOF_THREADS;
 
 layout(set = 0, binding = 0, scalar) uniform Dof { DofConstants dof; };
 layout(set = 0, binding = 1) uniform sampler2D depth_image;
 layout(set = 0, binding = 2) uniform sampler2D lit_image;
-layout(set = 0, binding = 3, rgba16f) uniform writeonly image2D far_image;
-layout(set = 0, binding = 4, rgba16f) uniform writeonly image2D near_image;
-layout(set = 0, binding = 5, rgba16f) uniform writeonly image2D beyond_image;
+layout(set = 0, binding = 3, scalar) readonly buffer TileSprites { DofTileSprites tile_sprites[]; };
+layout(set = 0, binding = 4, rgba16f) uniform writeonly image2D far_image;
+layout(set = 0, binding = 5, rgba16f) uniform writeonly image2D near_image;
 
 #define GLOAM_DOF_LIST_BINDING 6
-#include "shaders/depth_of_field/coc_api.glsl"
+#include "shaders/depth_of_field/blur/layer.glsl"
+#include "shaders/depth_of_field/levels_api.glsl"
 #include "shaders/depth_of_field/list_api.glsl"
+#include "shaders/depth_of_field/sprites_api.glsl"
 
-vec3 far_light;
-vec4 near, beyond;
-float far_weight, far_squares;
+float around;  // surroundings of the tile's sprites
+int level;
+LevelRange range;
+float
+    least;  // circles behind the focus that are much smaller than a texel count as in focus: they would spread too far
+int has_near, has_sprites;  // 1 or 0: loops in place of conditions, because lavapipe runs both sides of a branch
+vec3 far_light, focus_light;
+float far_weight, far_circle, far_bright, focus_weight, near_weight, near_circle;
+vec4 near;
 
-void add(ivec2 pixel, float depth, float share) {
-  vec3 light = texelFetch(lit_image, min(pixel, ivec2(dof.size) - 1), 0).rgb;
-  bool counts = is_finite(light);
-  float coc = circle_of_confusion(depth);
-  light = counts ? light : vec3(0.0);
-  float weight = counts && coc >= kInFocus ? coc : 0.0;
-  far_light += weight * light;
-  far_weight += weight;
-  far_squares += weight * weight;
-  if (kNear != 0u) {
-    float counted = counts ? share : 0.0, covered = layer_share(-coc);
-    near += counted * covered * vec4(light, 1.0);
-    beyond += counted * (1.0 - covered) * vec4(light, 1.0);
-  }
+void clear() {
+  far_light = focus_light = vec3(0.0);
+  near = vec4(0.0);
+  far_weight = far_circle = far_bright = focus_weight = near_weight = near_circle = 0.0;
 }
 
-void filter_texel(ivec2 texel) {
-  far_light = vec3(0.0);
-  near = beyond = vec4(0.0);
-  far_weight = far_squares = 0.0;
-  if (kScale == 2u) {
-    ivec2 corner = 2 * texel;
-    vec4 depths = textureGather(depth_image, vec2(corner + 1) * dof.inverse_size);
-    add(corner, depths.w, 0.25);
-    add(corner + ivec2(1, 0), depths.z, 0.25);
-    add(corner + ivec2(0, 1), depths.x, 0.25);
-    add(corner + ivec2(1, 1), depths.y, 0.25);
-  } else {
-    add(texel, texelFetch(depth_image, min(texel, ivec2(dof.size) - 1), 0).r, 1.0);
+void add(ivec2 pixel, float depth) {
+  vec3 light = texelFetch(lit_image, min(pixel, ivec2(dof.size) - 1), 0).rgb;
+  float counts = is_finite(light) ? 1.0 : 0.0;
+  float coc = circle_of_confusion(depth), circle = abs(coc);
+  light = counts > 0.0 ? light : vec3(0.0);
+  for (int i = 0; i < has_sprites; ++i) light *= 1.0 - sprite_share(light, coc, around);
+  // Light counts by its area. Circles that are hardly blurred count less.
+  float far = coc >= least ? counts * min(coc, 1.0) : 0.0;
+  far_light += far * light;
+  far_weight += far;
+  // The texel has the circle of its brightest pixels: a lamp before a wall keeps its own.
+  float bright = far * (brightness(light) + 1e-4);
+  far_bright += bright;
+  far_circle += bright * coc;
+  float focused = coc > -kInFocus && coc < least ? counts : 0.0;
+  focus_light += focused * light;
+  focus_weight += focused;
+  for (int i = 0; i < has_near; ++i) {
+    float before = coc <= -kInFocus ? 1.0 : 0.0,
+          part = counts * before * level_share(range, circle / GLOAM_DOF_NEAR_FINER);
+    near += part * vec4(light, 1.0);
+    near_circle += part * circle;
   }
-  if (any(greaterThanEqual(uvec2(texel), dof.layer_size))) return;
-  float scale = far_weight > 0.0 ? 1.0 / far_weight : 0.0;
-  vec4 far = vec4(far_light * scale, far_squares * scale / dof.radius);
-  imageStore(far_image, texel, min(far, vec4(65504.0)));
-  if (kNear == 0u) return;
-  imageStore(near_image, texel, min(near, vec4(65504.0)));
-  imageStore(beyond_image, texel, min(beyond, vec4(65504.0)));
+  // Also where this level blurs none of them.
+  near_weight = coc <= -kInFocus ? 1.0 : near_weight;
+}
+
+void store(ivec2 texel, float pixels, int wanted) {
+  ivec2 size = level_size(level);
+  if (any(greaterThanEqual(texel, size))) return;
+  ivec2 at = dof.corner[level] + texel;
+  float greatest = level == dof.last_level ? dof.radius : dof.to[level];
+  vec4 far = vec4(0.0, 0.0, 0.0, kNothing);
+  if (focus_weight > 0.0) far = vec4(focus_light / focus_weight, near_weight > 0.0 ? kBeside : 0.0);
+  if (far_weight > 0.0)
+    far = vec4(far_light / far_weight, rounded_radius(kernel_radius(min(far_circle / far_bright, greatest), level)));
+  if ((wanted & GLOAM_DOF_WANTS_FAR) != 0) imageStore(far_image, at, min(far, vec4(65504.0)));
+  if ((wanted & GLOAM_DOF_WANTS_NEAR) == 0) return;
+  float circle = near.a > 0.0 ? near_circle / near.a : 0.0;
+  float share = near.a / pixels;
+  vec3 light = near.a > 0.0 ? near.rgb / near.a * rounded_share(share) : vec3(0.0);
+  imageStore(near_image, at, vec4(min(light, vec3(65504.0)), packed_near(share, kernel_radius(circle, level))));
+}
+
+// Four pixels whose depths are gathered.
+void add_block(ivec2 corner, bool fine, int wanted) {
+  vec4 depths = textureGather(depth_image, vec2(corner + 1) * dof.inverse_size);
+  for (int i = 0; i < 4; ++i) {
+    ivec2 pixel = corner + ivec2(i & 1, i >> 1);
+    float depth = i == 0 ? depths.w : i == 1 ? depths.z : i == 2 ? depths.x : depths.y;
+    if (fine) clear();
+    add(pixel, depth);
+    if (fine) store(pixel, 1.0, wanted);
+  }
 }
 
 void main() {
   DofTile tile;
-  if (!listed_tile(kNear != 0u ? uint(GLOAM_DOF_PREFILTER_BOTH) : uint(GLOAM_DOF_PREFILTER_FAR), tile)) return;
-  const int side = GLOAM_DOF_TILE / int(kScale);
-  ivec2 first = tile.place * side + ivec2(gl_LocalInvocationID.xy);
-  for (int y = 0; y < side; y += GLOAM_DOF_BLOCK)
-    for (int x = 0; x < side; x += GLOAM_DOF_BLOCK) filter_texel(first + ivec2(x, y));
+  if (!listed_tile(kFine != 0u ? uint(GLOAM_DOF_PREFILTER_FINE) : uint(GLOAM_DOF_PREFILTER_COARSE), tile)) return;
+  around = tile_sprites[uint(tile.place.y) * dof.tiles.x + uint(tile.place.x)].surroundings;
+  int wanted = tile.work;
+  level = kFine != 0u ? 0 : tile.level;
+  range = level_range(level);
+  least = level == dof.first_level ? kInFocus : max(0.5 * dof.from[max(level - 1, 0)], kInFocus);
+  has_near = (wanted & GLOAM_DOF_HAS_NEAR) != 0 ? 1 : 0;
+  has_sprites = around >= 0.0 ? 1 : 0;
+  ivec2 first = tile.place * GLOAM_DOF_TILE;
+  // Tiles that only lie beside circles before the focus.
+  int reads = wanted == GLOAM_DOF_WANTS_NEAR ? 0 : 1;
+  int first_item = int(gl_LocalInvocationIndex);
+  if (kFine != 0u) {
+    for (int block = first_item; block < 64; block += kThreads) {
+      ivec2 pixel = first + 2 * ivec2(block & 7, block >> 3);
+      for (int i = 0; i < reads; ++i) add_block(pixel, true, wanted);
+      clear();
+      for (int i = 0; i < 4 * (1 - reads); ++i) store(pixel + ivec2(i & 1, i >> 1), 1.0, wanted);
+    }
+    return;
+  }
+  int side = GLOAM_DOF_TILE >> level, scale = 1 << level;
+  for (int number = first_item; number < side * side; number += kThreads) {
+    ivec2 texel = ivec2(number & (side - 1), number >> (4 - level));
+    clear();
+    for (int y = 0; y < scale * reads; y += 2)
+      for (int x = 0; x < scale; x += 2) add_block(first + texel * scale + ivec2(x, y), false, wanted);
+    store(tile.place * side + texel, float(scale * scale), wanted);
+  }
 }

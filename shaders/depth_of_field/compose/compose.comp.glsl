@@ -3,136 +3,181 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/depth_of_field/depth_of_field_shared.h"
+#include "shaders/depth_of_field/kernel_api.glsl"
 
-// Lays the blurred layers over the light, in place, in the listed tiles. A pixel behind the focus passes to the far
-// layer as its circle grows. The near layer covers the pixels that it has spread to by its alpha. What is behind it is
-// the pixel's own light, or the layer beyond where the pixel shows an object before the focus. Pixels in focus that the
-// near layer does not reach keep their light to the bit.
+// Lays the blurred layers over the light, in place, in the listed tiles. A pixel behind the focus shows the levels of
+// the far layer that its circle lies in. The near layer covers the pixels that it has spread to by its alpha. What is
+// behind it is the far layer, filled in where objects before the focus hide it. Sprites are discs. Pixels in focus that
+// nothing reaches keep their light to the bit.
 
-layout(local_size_x = GLOAM_DOF_BLOCK, local_size_y_id = 3) in;
-layout(constant_id = 0) const uint kScale = 2u;  // pixels a texel of the layers
-layout(constant_id = 1) const uint kNear = 0u;   // 1: tiles that the near layer reaches
-layout(constant_id = 2) const int kRows = 1;     // rows of layer texels that a thread goes through
+layout(local_size_x_id = 2) in;
+layout(constant_id = 2) const int kThreads = GLOAM_DOF_THREADS;
+layout(constant_id = 1) const uint kNear = 0u;  // 1: tiles that the near layer reaches
 
 layout(set = 0, binding = 0, scalar) uniform Dof { DofConstants dof; };
 layout(set = 0, binding = 1) uniform sampler2D depth_image;
 layout(set = 0, binding = 2) uniform sampler2D far_image;
 layout(set = 0, binding = 3) uniform sampler2D near_image;
-layout(set = 0, binding = 4) uniform sampler2D beyond_image;
-layout(set = 0, binding = 5) uniform sampler2D reach_image;
-layout(set = 0, binding = 6, rgba16f) uniform image2D lit_image;
+layout(set = 0, binding = 4, scalar) readonly buffer Reach { DofTileReach reached[]; };
+layout(set = 0, binding = 5, scalar) readonly buffer TileSprites { DofTileSprites tile_sprites[]; };
+layout(set = 0, binding = 6, scalar) readonly buffer Sprites { DofSprite sprites[]; };
+layout(set = 0, binding = 7, scalar) readonly buffer Reaching { uint reaching[]; };
+layout(set = 0, binding = 8, rgba16f) uniform image2D lit_image;
 
-#define GLOAM_DOF_LIST_BINDING 7
-#include "shaders/depth_of_field/coc_api.glsl"
+#define GLOAM_DOF_LIST_BINDING 9
+#include "shaders/depth_of_field/levels_api.glsl"
 #include "shaders/depth_of_field/list_api.glsl"
+#include "shaders/depth_of_field/sprites_api.glsl"
 
-// Of the layers before the focus, at a texel or a pixel; both premultiplied.
-struct Near {
-  vec4 near;
-  vec4 beyond;
+DofTileReach reach;
+uint first_sprite, sprite_count;
+float around;
+int has_sprites;
+
+// Four pixels: 0 and 1 above, 2 and 3 below.
+struct Quad {
+  vec4 p0, p1, p2, p3;
 };
-Near mix_near(Near a, Near b, float share) { return Near(mix(a.near, b.near, share), mix(a.beyond, b.beyond, share)); }
+Quad no_quad() { return Quad(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0)); }
 
-bool beyond_is_written;  // in the tile
+vec4 texel_of(sampler2D image, ivec2 texel, ivec2 size, int level) {
+  return texelFetch(image, dof.corner[level] + inside_level(texel, size), 0);
+}
 
-// far: rgb multiplied by alpha, and alpha, the circle.
-void compose(ivec2 pixel, float depth, vec4 far, Near before) {
+// The texels of level 1 around the four pixels that one of them covers, interpolated at the pixels.
+Quad quad_of_level_1(sampler2D image, ivec2 pixel) {
+  ivec2 texel = pixel >> 1, size = level_size(1);
+  vec4 left[3], right[3];
+  for (int y = 0; y < 3; ++y) {
+    vec4 middle = texel_of(image, texel + ivec2(0, y - 1), size, 1);
+    left[y] = mix(middle, texel_of(image, texel + ivec2(-1, y - 1), size, 1), 0.25);
+    right[y] = mix(middle, texel_of(image, texel + ivec2(1, y - 1), size, 1), 0.25);
+  }
+  return Quad(mix(left[1], left[0], 0.25), mix(right[1], right[0], 0.25), mix(left[1], left[2], 0.25),
+              mix(right[1], right[2], 0.25));
+}
+
+// At coarser levels the same four texels lie around all four pixels.
+Quad quad_of_level(sampler2D image, ivec2 pixel, int level) {
+  vec2 place = (vec2(pixel) + 0.5) / float(1 << level) - 0.5;
+  ivec2 texel = ivec2(floor(place)), size = level_size(level);
+  vec2 low = place - vec2(texel), high = low + 1.0 / float(1 << level);
+  vec4 top_left = texel_of(image, texel, size, level), top_right = texel_of(image, texel + ivec2(1, 0), size, level);
+  vec4 left = texel_of(image, texel + ivec2(0, 1), size, level);
+  vec4 right = texel_of(image, texel + ivec2(1, 1), size, level);
+  vec4 top0 = mix(top_left, top_right, low.x), top1 = mix(top_left, top_right, high.x);
+  vec4 bottom0 = mix(left, right, low.x), bottom1 = mix(left, right, high.x);
+  return Quad(mix(top0, bottom0, low.y), mix(top1, bottom1, low.y), mix(top0, bottom0, high.y),
+              mix(top1, bottom1, high.y));
+}
+
+Quad quad_of_pixels(sampler2D image, ivec2 pixel) {
+  return Quad(texelFetch(image, pixel, 0), texelFetch(image, pixel + ivec2(1, 0), 0),
+              texelFetch(image, pixel + ivec2(0, 1), 0), texelFetch(image, pixel + ivec2(1, 1), 0));
+}
+
+// Adds a level's light, by the share that the level has in a pixel. Where circles are smaller than texels, the sharp
+// pixel and the texels together have the variance of the circle.
+void add_far(inout vec4 sum, vec4 found, LevelRange range, float whole, float circle) {
+  float share = clamp((circle * circle - 0.25) * whole, 0.0, 1.0) * level_share(range, circle);
+  sum += share > 0.0 && found.a > 0.0 && circle >= kInFocus ? share * vec4(found.rgb / found.a, 1.0) : vec4(0.0);
+}
+void add_far(inout Quad sum, Quad found, int level, vec4 circles) {
+  LevelRange range = level_range(level);
+  float scale = float(1 << level), whole = level == 0 ? 1e9 : 1.0 / (scale * scale - 0.25);
+  add_far(sum.p0, found.p0, range, whole, circles.x);
+  add_far(sum.p1, found.p1, range, whole, circles.y);
+  add_far(sum.p2, found.p2, range, whole, circles.z);
+  add_far(sum.p3, found.p3, range, whole, circles.w);
+}
+
+// Loops in place of conditions: lavapipe runs both sides of a branch.
+Quad far_light(ivec2 pixel, vec4 circles) {
+  Quad sum = no_quad();
+  for (uint i = 0u; i < (reach.far & 1u); ++i) add_far(sum, quad_of_pixels(far_image, pixel), 0, circles);
+  for (uint i = 0u; i < (reach.far >> 1 & 1u); ++i) add_far(sum, quad_of_level_1(far_image, pixel), 1, circles);
+  for (uint left = reach.far & ~3u; left != 0u; left &= left - 1u)
+    add_far(sum, quad_of_level(far_image, pixel, findLSB(left)), findLSB(left), circles);
+  return sum;
+}
+
+void add_near(inout Quad sum, Quad found) {
+  sum.p0 += found.p0;
+  sum.p1 += found.p1;
+  sum.p2 += found.p2;
+  sum.p3 += found.p3;
+}
+Quad near_light(ivec2 pixel) {
+  Quad sum = no_quad();
+  if (kNear == 0u) return sum;
+  for (uint i = 0u; i < (reach.near & 1u); ++i) add_near(sum, quad_of_pixels(near_image, pixel));
+  for (uint i = 0u; i < (reach.near >> 1 & 1u); ++i) add_near(sum, quad_of_level_1(near_image, pixel));
+  for (uint left = reach.near & ~3u; left != 0u; left &= left - 1u)
+    add_near(sum, quad_of_level(near_image, pixel, findLSB(left)));
+  return sum;
+}
+
+// Light of sprites at a pixel, behind the focus and before it. A surface before a sprite hides it.
+void add_sprite(DofSprite sprite, vec2 apart, float radius, float share, float coc, inout vec4 far, inout vec4 near) {
+  float cover = share * aperture_cover(aperture_distance(apart), radius);
+  float behind = coc <= -kInFocus ? 1.0 : smoothstep(0.5 * sprite.coc, 0.8 * sprite.coc, coc);
+  float before = 1.0 - smoothstep(1.25, 1.6, coc / sprite.coc);
+  float seen = cover * (sprite.coc > 0.0 ? behind : before);
+  far.rgb += sprite.coc > 0.0 ? seen * sprite.light : vec3(0.0);
+  near.rgb += sprite.coc > 0.0 ? vec3(0.0) : seen * sprite.light;
+}
+void add_sprites(ivec2 pixel, vec4 coc, inout Quad far, inout Quad near) {
+  for (uint i = 0u; i < sprite_count; ++i) {
+    DofSprite sprite = sprites[reaching[first_sprite + i]];
+    vec2 apart = vec2(pixel) - sprite.place;
+    float radius = kernel_radius(abs(sprite.coc), 0), share = 1.0 / aperture_area(radius);
+    add_sprite(sprite, apart, radius, share, coc.x, far.p0, near.p0);
+    add_sprite(sprite, apart + vec2(1.0, 0.0), radius, share, coc.y, far.p1, near.p1);
+    add_sprite(sprite, apart + vec2(0.0, 1.0), radius, share, coc.z, far.p2, near.p2);
+    add_sprite(sprite, apart + vec2(1.0, 1.0), radius, share, coc.w, far.p3, near.p3);
+  }
+}
+
+void compose(ivec2 pixel, float coc, vec4 far, vec4 near, vec3 discs, vec3 near_discs) {
   if (any(greaterThanEqual(uvec2(pixel), dof.size))) return;
   vec4 light = imageLoad(lit_image, pixel);
-  bool counts = is_finite(light.rgb);
-  float coc = circle_of_confusion(depth);
-  float share = far.a > 0.0 ? layer_share(coc) : 0.0;
-  // Light that is not finite does not stay in what is blurred. If there is no other light near, it becomes black.
-  if (!counts && coc >= kInFocus) share = 1.0;
-  bool replaced = !counts && coc <= -kInFocus;
+  bool counts = is_finite(light.rgb), blurred = abs(coc) >= kInFocus;
   vec3 sharp = counts ? light.rgb : vec3(0.0);
-  // The far layer is not written where nothing near is behind the focus.
-  vec3 composed = share > 0.0 ? mix(sharp, far.rgb / max(far.a, 1e-9), share) : sharp;
-  float covered = 0.0;
-  if (kNear != 0u) {
-    // The light beyond is written only where something before the focus is shown.
-    float hidden = layer_share(-coc);
-    covered = min(before.near.a, 1.0);
-    // Where nothing beyond is near, light that is missing was not finite. The object's own takes its place.
-    vec4 behind = beyond_is_written && before.beyond.a > 1e-4 ? before.beyond : before.near;
-    if (hidden > 0.0) composed = mix(composed, behind.rgb / max(behind.a, 1e-6), hidden);
-    if (covered > 0.0) composed = before.near.rgb + (1.0 - covered) * composed;
-  }
-  if (share > 0.0 || covered > 0.0 || replaced)
+  for (int i = 0; i < has_sprites; ++i) sharp *= 1.0 - sprite_share(sharp, coc, around);
+  // Light that is not finite does not stay in what is blurred. If there is no other light near, it becomes black.
+  if (!counts && far.a > 0.0) far /= far.a;
+  near /= max(near.a, 1.0);
+  vec3 composed = far.rgb + (1.0 - far.a) * sharp + discs;
+  // Where nothing behind an object is visible near it, missing light was not finite. The object's own takes its place.
+  bool alone = !counts && coc <= -kInFocus && near.a > 1e-4 && far.a <= 0.0;
+  composed = alone ? near.rgb / near.a : near.rgb + (1.0 - near.a) * composed;
+  composed += near_discs;
+  if (far.a > 0.0 || near.a > 0.0 || sprite_count > 0u || (!counts && blurred))
     imageStore(lit_image, pixel, vec4(min(composed, vec3(65504.0)), light.a));
 }
 
-vec4 far_texel(ivec2 texel) {
-  vec4 far = texelFetch(far_image, clamp(texel, ivec2(0), ivec2(dof.layer_size) - 1), 0);
-  return vec4(far.rgb * far.a, far.a);
-}
-ivec2 tile_corner;  // its first texel. The light beyond is not written in neighbours.
-Near near_texel(ivec2 texel) {
-  ivec2 at = clamp(texel, ivec2(0), ivec2(dof.layer_size) - 1);
-  ivec2 in_tile = clamp(at, tile_corner, tile_corner + GLOAM_DOF_TILE / int(kScale) - 1);
-  return Near(texelFetch(near_image, at, 0), texelFetch(beyond_image, in_tile, 0));
-}
-
-// A row of texels, interpolated at the left and the right pixel of the middle one.
-struct Pair {
-  vec4 left;
-  vec4 right;
-};
-Pair pair_of(vec4 a, vec4 b, vec4 c) { return Pair(mix(b, a, 0.25), mix(b, c, 0.25)); }
-Pair far_pair(ivec2 texel) {
-  return pair_of(far_texel(texel - ivec2(1, 0)), far_texel(texel), far_texel(texel + ivec2(1, 0)));
-}
-struct NearPair {
-  Near left;
-  Near right;
-};
-NearPair near_pair(ivec2 texel) {
-  Near none = Near(vec4(0.0), vec4(0.0));
-  if (kNear == 0u) return NearPair(none, none);
-  Near here = near_texel(texel);
-  return NearPair(mix_near(here, near_texel(texel - ivec2(1, 0)), 0.25),
-                  mix_near(here, near_texel(texel + ivec2(1, 0)), 0.25));
-}
-
-// A column of layer texels, from top to bottom, with 2×2 pixels each. Three rows are kept, so each is fetched once.
-void compose_column(ivec2 first) {
-  Pair far_above = far_pair(first - ivec2(0, 1)), far_here = far_pair(first);
-  NearPair near_above = near_pair(first - ivec2(0, 1)), near_here = near_pair(first);
-  for (int row = 0; row < kRows; ++row) {
-    ivec2 texel = first + ivec2(0, row), pixel = 2 * texel;
-    Pair far_below = far_pair(texel + ivec2(0, 1));
-    NearPair near_below = near_pair(texel + ivec2(0, 1));
-    vec4 depths = textureGather(depth_image, vec2(pixel + 1) * dof.inverse_size);
-    compose(pixel, depths.w, mix(far_here.left, far_above.left, 0.25), mix_near(near_here.left, near_above.left, 0.25));
-    compose(pixel + ivec2(1, 0), depths.z, mix(far_here.right, far_above.right, 0.25),
-            mix_near(near_here.right, near_above.right, 0.25));
-    compose(pixel + ivec2(0, 1), depths.x, mix(far_here.left, far_below.left, 0.25),
-            mix_near(near_here.left, near_below.left, 0.25));
-    compose(pixel + ivec2(1, 1), depths.y, mix(far_here.right, far_below.right, 0.25),
-            mix_near(near_here.right, near_below.right, 0.25));
-    far_above = far_here;
-    far_here = far_below;
-    near_above = near_here;
-    near_here = near_below;
-  }
+void compose_quad(ivec2 pixel) {
+  // Upper left, upper right, lower left, lower right.
+  vec4 depths = textureGather(depth_image, vec2(pixel + 1) * dof.inverse_size).wzxy;
+  vec4 coc = clamp(dof.coc_offset + dof.coc_slope * depths, -dof.radius, dof.radius);
+  Quad far = far_light(pixel, abs(coc)), near = near_light(pixel);
+  Quad discs = no_quad(), near_discs = no_quad();
+  add_sprites(pixel, coc, discs, near_discs);
+  compose(pixel, coc.x, far.p0, near.p0, discs.p0.rgb, near_discs.p0.rgb);
+  compose(pixel + ivec2(1, 0), coc.y, far.p1, near.p1, discs.p1.rgb, near_discs.p1.rgb);
+  compose(pixel + ivec2(0, 1), coc.z, far.p2, near.p2, discs.p2.rgb, near_discs.p2.rgb);
+  compose(pixel + ivec2(1, 1), coc.w, far.p3, near.p3, discs.p3.rgb, near_discs.p3.rgb);
 }
 
 void main() {
   DofTile tile;
   if (!listed_tile(kNear != 0u ? uint(GLOAM_DOF_COMPOSE_BOTH) : uint(GLOAM_DOF_COMPOSE_FAR), tile)) return;
-  beyond_is_written = texelFetch(reach_image, tile.place, 0).w > 0.0;
-  tile_corner = tile.place * (GLOAM_DOF_TILE / int(kScale));
-  ivec2 local = ivec2(gl_LocalInvocationID.x, int(gl_LocalInvocationID.y) * kRows);
-  if (kScale == 2u) {
-    compose_column(tile.place * (GLOAM_DOF_TILE / 2) + local);
-    return;
-  }
-  for (int block = 0; block < 4; ++block)
-    for (int row = 0; row < kRows; ++row) {
-      ivec2 pixel =
-          tile.place * GLOAM_DOF_TILE + local + ivec2(block & 1, block >> 1) * GLOAM_DOF_BLOCK + ivec2(0, row);
-      Near near = Near(vec4(0.0), vec4(0.0));
-      if (kNear != 0u) near = near_texel(pixel);
-      compose(pixel, texelFetch(depth_image, min(pixel, ivec2(dof.size) - 1), 0).r, far_texel(pixel), near);
-    }
+  uint index = uint(tile.place.y) * dof.tiles.x + uint(tile.place.x);
+  reach = reached[index];
+  around = tile_sprites[index].surroundings;
+  has_sprites = around >= 0.0 ? 1 : 0;
+  first_sprite = index * uint(GLOAM_DOF_REACHING_SPRITES + 1) + 1u;
+  sprite_count = reaching[first_sprite - 1u];
+  int quad = int(gl_LocalInvocationIndex);
+  compose_quad(tile.place * GLOAM_DOF_TILE + 2 * ivec2(quad & 7, quad >> 3));
 }

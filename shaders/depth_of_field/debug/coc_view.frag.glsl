@@ -19,7 +19,7 @@ layout(location = 1) out vec4 out_value;  // radius in pixels, positive behind t
 
 void main() {
   float coc = circle_of_confusion(texelFetch(depth_image, ivec2(gl_FragCoord.xy), 0).r);
-  float wide = sqrt(clamp(abs(coc) / dof.radius, 0.0, 1.0));
+  float wide = sqrt(clamp(abs(coc) / dof.limit, 0.0, 1.0));
   vec3 color = coc < 0.0 ? vec3(0.9, 0.35 * wide, 0.05) * wide : vec3(0.05, 0.35 * wide, 0.9) * wide;
   if (abs(coc) < kInFocus) color = vec3(0.05, 0.5, 0.1);
   out_color = vec4(kEncode != 0u ? linear_to_srgb(color) : color, 1.0);

@@ -4,40 +4,59 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/depth_of_field/depth_of_field_shared.h"
 
-// The greatest radii of kernels of each tile, before and behind the focus, one thread a tile. They follow from the
-// nearest and the farthest depth, because the circle grows with depth.
+// The circles of each tile, one thread a tile.
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(set = 0, binding = 0, scalar) uniform Dof { DofConstants dof; };
 layout(set = 0, binding = 1) uniform sampler2D depth_image;
-layout(set = 0, binding = 2,
-       rg32f) uniform writeonly image2D tile_image;  // greatest radius: near, far; far −1: the near layer holds all
-layout(set = 0, binding = 3, scalar) buffer Lists { DofList lists[]; };  // emptied
+layout(set = 0, binding = 2, scalar) writeonly buffer Bounds { DofTileBounds bounds[]; };
+layout(set = 0, binding = 3, scalar) buffer PictureBounds { DofPictureBounds picture; };
 
 #include "shaders/depth_of_field/coc_api.glsl"
 
-float least(vec4 v) { return min(min(v.x, v.y), min(v.z, v.w)); }
-float greatest(vec4 v) { return max(max(v.x, v.y), max(v.z, v.w)); }
+bool has_any(bvec4 v) { return any(v); }
 
 void main() {
   uvec2 tile = gl_GlobalInvocationID.xy;
-  if (tile.y == 0u && tile.x < uint(GLOAM_DOF_LISTS)) lists[tile.x] = DofList(0u, 1u, 1u, 0u);
   if (any(greaterThanEqual(tile, dof.tiles))) return;
   vec2 corner = vec2(tile * uint(GLOAM_DOF_TILE) + 1u);
-  float near = 0.0, far = 1e9;  // depths; reversed Z
+  uint far = 0u, near = 0u, fill = 0u, open = 0u;
+  float far_radius = 0.0, near_radius = 0.0;
+  // Level k has circles from low to high.
+  float low[GLOAM_DOF_LEVELS], high[GLOAM_DOF_LEVELS];
+  for (int k = 0; k < GLOAM_DOF_LEVELS; ++k) {
+    low[k] = k == dof.first_level ? kInFocus : dof.from[max(k - 1, 0)];
+    high[k] = k == dof.last_level ? 1e9 : dof.to[k];
+  }
   for (int y = 0; y < GLOAM_DOF_TILE; y += 2)
     for (int x = 0; x < GLOAM_DOF_TILE; x += 2) {
       vec4 depths = textureGather(depth_image, (corner + vec2(x, y)) * dof.inverse_size);
-      near = max(near, greatest(depths));
-      far = min(far, least(depths));
+      vec4 coc = clamp(dof.coc_offset + dof.coc_slope * depths, -dof.radius, dof.radius);
+      vec2 least2 = min(coc.xy, coc.zw), most2 = max(coc.xy, coc.zw);
+      float least = min(least2.x, least2.y), most = max(most2.x, most2.y);
+      far_radius = max(far_radius, most);
+      near_radius = max(near_radius, -least);
+      open = most > -kInFocus ? 1u : open;
+      for (int k = 0; k < GLOAM_DOF_LEVELS; ++k) {
+        bool behind = has_any(bvec4(uvec4(greaterThanEqual(coc, vec4(low[k]))) & uvec4(lessThan(coc, vec4(high[k])))));
+        float near_low = k == dof.first_level ? low[k] : GLOAM_DOF_NEAR_FINER * low[k];
+        bool before = has_any(bvec4(uvec4(lessThanEqual(coc, vec4(-near_low))) &
+                                    uvec4(greaterThan(coc, vec4(-GLOAM_DOF_NEAR_FINER * high[k])))));
+        bool hidden =
+            has_any(bvec4(uvec4(lessThanEqual(coc, vec4(-low[k]))) & uvec4(greaterThan(coc, vec4(-high[k])))));
+        far |= behind ? 1u << k : 0u;
+        fill |= hidden ? 1u << k : 0u;
+        near |= before ? 1u << k : 0u;
+      }
     }
-  bool solid = layer_share(-circle_of_confusion(far)) >= 1.0;
-  float before = max(-circle_of_confusion(near), 0.0), behind = max(circle_of_confusion(far), 0.0);
-  imageStore(tile_image, ivec2(tile),
-             vec4(before < kInFocus ? 0.0 : before * dof.reach,
-                  solid               ? -1.0
-                  : behind < kInFocus ? 0.0
-                                      : behind * dof.reach,
-                  0.0, 0.0));
+  uint levels = (2u << dof.last_level) - (1u << dof.first_level);
+  far_radius = far_radius < kInFocus ? 0.0 : far_radius;
+  near_radius = near_radius < kInFocus ? 0.0 : near_radius;
+  bounds[tile.y * dof.tiles.x + tile.x] =
+      DofTileBounds(far & levels, near & levels, fill & levels, open, far_radius, near_radius);
+  if (((far | fill) & levels) != 0u) atomicOr(picture.far_levels, (far | fill) & levels);
+  if ((near & levels) != 0u) atomicOr(picture.near_levels, near & levels);
+  if (near_radius > 0.0) atomicMax(picture.near_radius, floatBitsToUint(near_radius));
+  if (max(near_radius, far_radius) > 0.0) atomicMax(picture.radius, floatBitsToUint(max(near_radius, far_radius)));
 }

@@ -54,23 +54,11 @@ TEST_F(DofDemand, a_lens_that_is_too_small_to_blur_has_no_passes) {
 TEST_F(DofDemand, a_camera_with_a_focus_has_passes_pipelines_and_memory_and_no_systems) {
   focus({.focus_m = 2.0f});
   frames();
-  EXPECT_THAT(passes, testing::ElementsAre("dof_blur_x", "dof_blur_y", "dof_compose", "dof_prefilter",
-                                           "dof_tile_bounds", "dof_tile_lists", "dof_tile_reach"));
+  EXPECT_THAT(passes, testing::ElementsAre("dof_compose", "dof_gather", "dof_prefilter", "dof_sprites_find",
+                                           "dof_sprites_reach", "dof_tile_bounds", "dof_tile_lists", "dof_tile_reach"));
   EXPECT_THAT(systems, testing::IsEmpty());
   EXPECT_GT(state.pipelines, 0u);
   EXPECT_TRUE(state.demanded);
-}
-
-TEST_F(DofDemand, each_kernel_and_form_has_its_passes) {
-  focus({.focus_m = 2.0f, .bokeh = Bokeh::hexagonal});
-  frames();
-  EXPECT_THAT(passes, testing::IsSupersetOf({"dof_hexagon_lines", "dof_hexagon_rhombi"}));
-  for (const char* cache : {"dof.cache=vec4", "dof.cache=channels"}) {
-    ASSERT_TRUE(renderer->knobs().set_assignment(cache).ok());
-    frames();
-    EXPECT_THAT(passes, testing::IsSupersetOf({"dof_upright", "dof_both", "dof_right", "dof_hexagon"})) << cache;
-    EXPECT_THAT(passes, testing::Not(testing::Contains("dof_hexagon_lines"))) << cache;
-  }
 }
 
 TEST_F(DofDemand, captures_other_cameras_and_views_without_the_module_have_no_passes) {

@@ -28,8 +28,8 @@ MUTATIONS = (
      "0.9 * p.depth"),
     ("not a number", "finite", "lighting/opaque/deferred.glsl", "out_light = vec4(min(light, vec3(65504.0)), 1.0);",
      "out_light = vec4(light * uintBitsToFloat(0x7FC00000u), 1.0);"),
-    ("a narrow lens", "accumulated.lens", "depth_of_field/blur/radius.glsl", "return own_alpha * dof.radius",
-     "return 0.5 * own_alpha * dof.radius"),
+    ("a narrow lens", "accumulated.lens", "depth_of_field/kernel_api.glsl", "float texels = circle /",
+     "float texels = 0.5 * circle /"),
     ("missed hits", "traced.puddle", "reflections/passes/screen_space_march.glsl",
      "return met ? vec2(before, reached) : kNoHit;", "return kNoHit;"),
     ("too much scattered light", "traced.smoke", "particles/lighting/scattered_light.glsl",
@@ -64,11 +64,12 @@ MUTATIONS = (
     ("halved gravity", "kernel.blades", "grass/simulation/solver.glsl", "vec3(0.0, -9.81, 0.0)", "vec3(0.0, -4.905, 0.0)"),
     ("turbulence of another order", "kernel.particles", "particles/simulation/motion_api.glsl",
      "0.5 * past / e.swirl_step_s", "past / e.swirl_step_s"),
-    ("a wider Gaussian", "kernel.lens_blur", "depth_of_field/blur/kernel.glsl", "exp2(-4.3280851", "exp2(-4.0"),
-    ("a lens that loses light", "kernel.bokeh_energy", "depth_of_field/blur/kernel.glsl",
-     "vec4(light.rgb, own_alpha);", "vec4(0.99 * light.rgb, own_alpha);"),
-    ("a hexagon with unequal sides", "kernel.bokeh_shape", "depth_of_field/blur/kernel.glsl",
-     "const float kSlanted = 0.88;", "const float kSlanted = 0.78;"),
+    ("a wider disc", "kernel.lens_blur", "depth_of_field/kernel_api.glsl", "clamp(radius + 0.5 - distance",
+     "clamp(radius + 0.8 - distance"),
+    ("a lens that loses light", "kernel.bokeh_energy", "depth_of_field/kernel_api.glsl", "? 3.14159265 : 3.46410162",
+     "? 3.3 : 3.6"),
+    ("a hexagon with unequal sides", "kernel.bokeh_shape", "depth_of_field/kernel_api.glsl",
+     "0.5 * a.x + kInnerRadius * a.y", "0.5 * a.x + a.y"),
 )
 
 # Mutations that each test run tries; the others compile many shaders, or draw many pictures.

@@ -83,7 +83,7 @@ class Usage(ProgramCase):
 
     def test_knobs_are_listed_with_values_unit_and_sentence(self):
         text = self.expect(0, "knobs").stdout
-        self.assertIn("dof.radius=15  (3 … 31 pixels)\n      greatest radius", text)
+        self.assertIn("dof.radius=15  (3 … 31 pixels)\n      limit of the radius", text)
         knobs = json.loads(self.expect(0, "knobs", "--json", "--set", "dof.radius=7").stdout)["knobs"]
         radius = next(knob for knob in knobs if knob["name"] == "dof.radius")
         self.assertEqual((radius["value"], radius["default"], radius["unit"]), ("7", "15", "pixels"))

@@ -68,20 +68,14 @@ TEST_P(DofForms, of_workgroup_memory_draw_the_same_to_the_bit) {
   });
 }
 
-TEST_P(DofForms, without_workgroup_memory_draw_the_same_round_kernel_to_the_bit) {
-  each_setting([](const DofInput& in) {
-    const DofResult none = with_cache(in, DofKnobs::Cache::none), cached = with_cache(in, DofKnobs::Cache::channels);
-    EXPECT_EQ(steps_apart(none, cached), 0) << in.width << ", radius " << in.knobs.radius;
-  });
-}
-
-// The cached forms store the upright line as half floats before they add it to the line to the right. The other form
-// adds it first.
-TEST_P(DofForms, without_workgroup_memory_draw_the_same_hexagon_within_four_steps_of_half_floats) {
+TEST_P(DofForms, without_workgroup_memory_draw_the_same_to_the_bit) {
   each_setting([](DofInput in) {
-    in.bokeh = Bokeh::hexagonal;
-    const DofResult none = with_cache(in, DofKnobs::Cache::none), cached = with_cache(in, DofKnobs::Cache::channels);
-    EXPECT_LE(steps_apart(none, cached), 4) << in.width << ", radius " << in.knobs.radius;
+    for (const Bokeh bokeh : {Bokeh::round, Bokeh::hexagonal}) {
+      in.bokeh = bokeh;
+      const DofResult none = with_cache(in, DofKnobs::Cache::none), cached = with_cache(in, DofKnobs::Cache::channels);
+      EXPECT_EQ(steps_apart(none, cached), 0) << in.width << ", radius " << in.knobs.radius;
+      EXPECT_TRUE(none.halves == with_cache(in, DofKnobs::Cache::device).halves);
+    }
   });
 }
 

@@ -81,7 +81,8 @@ TEST_P(DofLayersTest, pixels_in_focus_keep_their_light_to_the_bit_where_no_near_
         // The kernel of the hexagon reaches 9 pixels far, the round one 13, and interpolation of layers of half the
         // size two more. Each of the two passes of the hexagon spreads slanted lines over one more row of texels.
         const bool hexagonal = drawn.bokeh == Bokeh::hexagonal;
-        const std::uint32_t columns = hexagonal ? 12 : 16, rows = hexagonal ? 12 + 2 * drawn.knobs.scale() : 16;
+        const std::uint32_t columns = hexagonal ? 12 : 16,
+                            rows = hexagonal ? 12 + (drawn.knobs.full_resolution ? 2 : 4) : 16;
         const bool reached =
             x + columns > near.left && x < near.right + columns && y + rows > near.top && y < near.bottom + rows;
         if (reached || std::abs(drawn.coc[drawn.at(x, y)]) > 0.5f) continue;
@@ -130,34 +131,44 @@ TEST_P(DofLayersTest, near_objects_spread_over_a_sharp_background) {
   });
 }
 
-/// Share of a disc, centred `distance` before a straight edge, that lies on the other side of the edge.
-double disc_beyond(double distance, double radius) {
-  const double t = std::clamp(distance / radius, -1.0, 1.0);
-  return (std::acos(t) - t * std::sqrt(1.0 - t * t)) / std::numbers::pi;
+/// Share of an aperture, centred `distance` before an upright edge, that lies on the other side of the edge. A hexagon
+/// has corners at the top and the bottom.
+double aperture_beyond(Bokeh bokeh, double distance, double radius) {
+  const double t = distance / radius;
+  if (bokeh == Bokeh::round) {
+    const double d = std::clamp(t, -1.0, 1.0);
+    return (std::acos(d) - d * std::sqrt(1.0 - d * d)) / std::numbers::pi;
+  }
+  // The hexagon is 2 − 2 |x| / √3 high at x; its area is 1.5 √3.
+  const double widest = std::sqrt(0.75), d = std::clamp(t, -widest, widest);
+  const auto area = [](double x) { return 2.0 * x - x * std::abs(x) / std::sqrt(3.0); };
+  return (area(widest) - area(d)) / (1.5 * std::sqrt(3.0));
 }
 
-// Wide, and narrower than its circle: through the lens both show what is behind them. The round kernel is a Gaussian: a
-// stripe's share of it differs from that of the disc by up to 0.135 (computed from round_weight()).
+// Wide, and narrower than its circle: through the lens both show what is behind them. Circles of each level.
 TEST_P(DofLayersTest, near_objects_are_as_solid_as_through_a_lens) {
-  constexpr double kCircle = 10.0;
-  for (const auto& [left, right] : {std::pair{50u, 78u}, {60u, 72u}, {62u, 66u}})
-    for (const auto& [object, ground] : {std::pair{1.0f, 0.1f}, {0.1f, 1.0f}}) {
-      DofInput in(kWidth, kHeight, 0.0f, vec4(ground));
-      fill(in, {left, 0, right, kHeight}, -10.0f, vec4(object));
-      each_kernel(in, [&](const DofResult& result, const DofInput& drawn, const std::string& name) {
-        const std::string which = name + ", " + std::to_string(right - left) + " wide, " + std::to_string(object);
-        const double bound = drawn.bokeh == Bokeh::round ? 0.14 : 0.05;
-        double covered = 0.0;
-        for (std::uint32_t x = 0; x < kWidth; ++x) {
-          const double alpha = static_cast<double>((result.light[drawn.at(x, 48)].x - ground) / (object - ground));
-          const double from_left = left - (x + 0.5), from_right = right - (x + 0.5);
-          EXPECT_NEAR(alpha, disc_beyond(from_left, kCircle) - disc_beyond(from_right, kCircle), bound)
-              << which << " " << x;
-          covered += alpha;
-        }
-        EXPECT_NEAR(covered / (right - left), 1.0, 0.03) << which;
-      });
-    }
+  for (const float circle : {2.0f, 4.5f, 7.0f, 10.0f, 13.0f})
+    for (const auto& [left, right] : {std::pair{50u, 78u}, {60u, 72u}, {62u, 66u}})
+      for (const auto& [object, ground] : {std::pair{1.0f, 0.1f}, {0.1f, 1.0f}}) {
+        DofInput in(kWidth, kHeight, 0.0f, vec4(ground));
+        fill(in, {left, 0, right, kHeight}, -circle, vec4(object));
+        each_kernel(in, [&](const DofResult& result, const DofInput& drawn, const std::string& name) {
+          // Layers of half the size are softer than circles of two pixels.
+          if (circle < 4.0f && !drawn.knobs.full_resolution) return;
+          const std::string which = name + ", " + std::to_string(right - left) + " wide, " + std::to_string(object) +
+                                    ", circle " + std::to_string(circle);
+          double covered = 0.0, whole = 0.0;
+          for (std::uint32_t x = 0; x < kWidth; ++x) {
+            const double alpha = static_cast<double>((result.light[drawn.at(x, 48)].x - ground) / (object - ground));
+            const double expected = aperture_beyond(drawn.bokeh, left - (x + 0.5), double{circle}) -
+                                    aperture_beyond(drawn.bokeh, right - (x + 0.5), double{circle});
+            EXPECT_NEAR(alpha, expected, 0.05) << which << " " << x;
+            covered += alpha;
+            whole += expected;
+          }
+          EXPECT_NEAR(covered / whole, 1.0, 0.03) << which;
+        });
+      }
 }
 
 // A slope that passes through the focus keeps its light, and an object before it adds its own only.

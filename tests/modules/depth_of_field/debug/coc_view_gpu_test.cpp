@@ -24,7 +24,7 @@ class DofCocView : public DofStageTest {
 
 TEST_F(DofCocView, shows_the_circle_of_confusion_of_each_pixel) {
   DofStage stage;
-  stage.set("dof.radius", "7");
+  stage.set("dof.radius", "10");  // of 64 lines: 7.1 pixels are four limits
   stage.glow({0.0, 0.0, -8.0}, 6.0f, vec3(1.0f));
   stage.glow({0.45, 0.0, -2.0}, 0.3f, vec3(1.0f));
   stage.glow({-0.25, 0.0, -1.0}, 0.15f, vec3(1.0f));
@@ -38,7 +38,9 @@ TEST_F(DofCocView, shows_the_circle_of_confusion_of_each_pixel) {
     return static_cast<double>(half_to_float(half));
   };
   const double scale = 32.0 / std::tan(0.3);  // pixels, of a tangent
-  const auto expected = [&](double z) { return std::clamp(radius(2.0, 0.5, z), -7.0, 7.0); };
+  const auto expected = [&](double z) {
+    return std::clamp(radius(2.0, 0.5, z), -4.0 * 10.0 * 64.0 / 360.0, 4.0 * 10.0 * 64.0 / 360.0);
+  };
   EXPECT_NEAR(shown(48, 4), expected(8.0), 4e-3);
   EXPECT_NEAR(shown(48 + static_cast<int>(0.45 / 2.0 * scale), 32), 0.0, 4e-3);
   EXPECT_NEAR(shown(48 - static_cast<int>(0.25 / 1.0 * scale), 32), expected(1.0), 4e-3);

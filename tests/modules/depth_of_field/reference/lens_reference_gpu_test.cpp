@@ -16,23 +16,6 @@ namespace {
 
 class LensReference : public DofStageTest {
  protected:
-  /// The light of a stage's frame through its camera's lens.
-  static LinearPicture through_lens(DofStage& stage, std::uint32_t samples) {
-    const FramePictures frame{stage.draw(), {}};
-    const ReferenceInput input{.world = stage.world,
-                               .view = stage.drawn_view(),
-                               .knobs = stage.renderer->knobs(),
-                               .frame = frame,
-                               .samples = samples,
-                               .executor = stage.executor(),
-                               .redraw = [&stage](const auto& change, const auto& restore) -> Result<FramePictures> {
-                                 change(stage.world);
-                                 FramePictures drawn{stage.draw(), {}};
-                                 restore(stage.world);
-                                 return drawn;
-                               }};
-    return value_of(light_through_lens(input));
-  }
   /// Share of the aperture beyond a line at this distance from its centre, of a round one and of a hexagon with corners
   /// at the top and the bottom beyond an upright line. Radius 1.
   static double share_beyond(Bokeh bokeh, double distance) {
@@ -55,9 +38,9 @@ TEST_F(LensReference, equals_the_pinhole_picture_in_the_plane_of_focus) {
                  vec3(0.3f + 0.1f * static_cast<float>(i), 1.0f, 5.0f / static_cast<float>(i + 1)));
     const LinearPicture pinhole = stage.draw();
     stage.focus({.focus_m = 1.5f, .f_number = 0.5f, .bokeh = bokeh});
-    EXPECT_FALSE(through_lens(stage, 4).rgba == pinhole.rgba);
+    EXPECT_FALSE(stage.through_lens(4).rgba == pinhole.rgba);
     stage.focus({.focus_m = 3.0f, .f_number = 0.5f, .bokeh = bokeh});
-    const LinearPicture mean = through_lens(stage, 64);
+    const LinearPicture mean = stage.through_lens(64);
     ASSERT_EQ(mean.rgba.size(), pinhole.rgba.size());
     double most = 0.0;
     for (std::size_t i = 0; i < mean.rgba.size(); ++i) {
@@ -79,7 +62,7 @@ TEST_F(LensReference, nears_the_share_of_the_aperture_that_sees_a_bright_surface
     const double bright = static_cast<double>(pinhole.rgba[4 * (32 * 96 + 90)]);
     stage.focus(values);
     const auto error = [&](std::uint32_t samples) {
-      const LinearPicture mean = through_lens(stage, samples);
+      const LinearPicture mean = stage.through_lens(samples);
       const double f = 0.012 / std::tan(0.3);
       const double radius = 0.5 * f * f * 7.0 / (0.1 * 9.0 * (2.0 - f)) / 0.024 * 64.0;
       EXPECT_GT(radius, 5.0);
@@ -102,7 +85,7 @@ TEST_F(LensReference, is_the_frame_itself_without_a_focus_and_needs_a_frame_that
   DofStage stage;
   stage.glow({0.0, 0.0, -9.0}, 1.0f, vec3(1.0f));
   const LinearPicture pinhole = stage.draw();
-  EXPECT_TRUE(through_lens(stage, 4).rgba == pinhole.rgba);
+  EXPECT_TRUE(stage.through_lens(4).rgba == pinhole.rgba);
   const FramePictures frame{pinhole, {}};
   const ReferenceInput fixed{.world = stage.world,
                              .view = stage.drawn_view(),
@@ -117,7 +100,7 @@ TEST_F(LensReference, is_shown_in_place_of_the_frame) {
   DofStage stage;
   stage.glow({0.0, 0.0, -9.0}, 1.0f, vec3(1.0f));
   stage.focus({.focus_m = 2.0f, .f_number = 0.5f});
-  const LinearPicture mean = through_lens(stage, 16);
+  const LinearPicture mean = stage.through_lens(16);
   LensPicture picture{{mean.width, mean.height, {}}};
   for (const float value : mean.rgba) picture.light.push_back(float_to_half(value));
   stage.world.set_resource(picture);

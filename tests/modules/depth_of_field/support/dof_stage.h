@@ -17,6 +17,7 @@
 #include "engine/render/renderer.h"
 #include "modules/depth_of_field/components.h"
 #include "modules/depth_of_field/lens/lens.h"
+#include "modules/depth_of_field/reference/lens_reference.h"
 #include "modules/module_list/module_list.h"
 #include "tests/support/gpu_device.h"
 #include "tests/support/render_scene.h"
@@ -64,6 +65,23 @@ class DofStage {
     const Status drawn = renderer->render(world, std::span(&request, 1));
     EXPECT_TRUE(drawn.ok()) << (drawn.ok() ? "" : drawn.error().message);
     return value_of(renderer->read_linear(view.id));
+  }
+  /// The light of the stage's frame through its camera's lens.
+  [[nodiscard]] LinearPicture through_lens(std::uint32_t samples) {
+    const FramePictures frame{draw(), {}};
+    const ReferenceInput input{.world = world,
+                               .view = drawn_view(),
+                               .knobs = renderer->knobs(),
+                               .frame = frame,
+                               .samples = samples,
+                               .executor = executor(),
+                               .redraw = [this](const auto& change, const auto& restore) -> Result<FramePictures> {
+                                 change(world);
+                                 FramePictures drawn{draw(), {}};
+                                 restore(world);
+                                 return drawn;
+                               }};
+    return value_of(light_through_lens(input));
   }
   [[nodiscard]] JobExecutor& executor() { return *executor_; }
   [[nodiscard]] const RenderView& drawn_view() { return world.view_resource<RenderView>(view.id); }

@@ -4,11 +4,12 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/depth_of_field/depth_of_field_shared.h"
 
-// Filters lines through workgroup memory, in one array for each channel: neighbouring threads then read neighbouring
+// Gathers a layer through workgroup memory, in one array for each channel: neighbouring threads then read neighbouring
 // words, in different banks of the memory.
 
-const int kRoom = GLOAM_DOF_LINE + 2 * GLOAM_DOF_MOST_TAPS;
-shared float cached_r[3 * kRoom], cached_g[3 * kRoom], cached_b[3 * kRoom], cached_a[3 * kRoom];
+const int kKeeps = 1;
+const int kRoom = GLOAM_DOF_ROOM * GLOAM_DOF_ROOM;
+shared float cached_r[kRoom], cached_g[kRoom], cached_b[kRoom], cached_a[kRoom];
 void keep(int at, vec4 texel) {
   cached_r[at] = texel.r;
   cached_g[at] = texel.g;
@@ -17,4 +18,4 @@ void keep(int at, vec4 texel) {
 }
 vec4 kept(int at) { return vec4(cached_r[at], cached_g[at], cached_b[at], cached_a[at]); }
 
-#include "shaders/depth_of_field/blur/line.glsl"
+#include "shaders/depth_of_field/blur/gather.glsl"
