@@ -81,6 +81,9 @@ TEST_F(DefaultLightTest, leaves_scenes_with_a_light_or_a_sky_and_empty_ones) {
   environment.sky_ground = vec3(0.0f, 0.1f, 0.0f);
   EXPECT_FALSE(add_default_light(world_, info_)) << "a sky";
   environment.sky_ground = vec3(0.0f);
+  environment.has_sky = true;
+  EXPECT_FALSE(add_default_light(world_, info_)) << "a sky of zero that the file sets";
+  environment.has_sky = false;
   builder_.add_light("lamp", Light{}, {}, {0.0, -1.0, 0.0}, false);
   EXPECT_FALSE(add_default_light(world_, info_)) << "a light";
   EXPECT_EQ(lights(), 1u);
