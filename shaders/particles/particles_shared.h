@@ -67,7 +67,11 @@ struct ParticleEmitterRow {
   vec3 map_scale;         // texels per metre
   vec3 map_size;          // texels
   float map_light_scale;  // from the light of the map to that of the view
-  float inverse_radius;   // 1 / usual distance of a particle from the column above the origin
+  float mean_speed;       // along the axis at birth, of all particles together, m/s
+  float birth_wide2;      // variance of places across the column at birth, m²
+  float way_wide2;        // variance of speeds across the axis at birth, m²/s²
+  float drift_wide2;      // variance of the turbulence's speeds that widens the column, m²/s²
+  float hiding;           // area that sprites of the size at birth and opacity 1, born in one second, hide: m²/s
   uvec4 lights;           // indices in the view's LightBlock; the first light_count are used
   vec4 light_weights;
   uvec4 light_channels;  // of the map's visibility, or GLOAM_PARTICLE_UNBAKED
@@ -100,6 +104,7 @@ struct Particle {
   float opacity;  // greatest, of the middle
   float life;     // share of its lifetime, 0...1
   uint look;      // emitter in the low 16 bits, random bits above
+  uint outward;   // out of the plume, shorter than 1: three times 10 bits, of which 1…1023 are −1…1
 };
 
 /// Arguments of the passes that follow the sort.

@@ -10,6 +10,12 @@
 namespace gloam {
 namespace {
 
+/// Speed at which turbulence widens a plume ÷ its greatest speed. It carries neighbours along together, which does not.
+constexpr float kPlumeDrift = 0.2f;
+
+/// Share of a plume's optical depth that shades its sides: sprites lie in heaps, between which light comes through.
+constexpr float kPlumeShade = 0.82f;
+
 std::uint32_t seed_of(Entity entity) { return (entity.index + 1) * 0x9E3779B9u; }
 
 /// Phase of the turbulence at a step. Emitters have different ones.
@@ -19,15 +25,35 @@ float swirl_time(std::int64_t step, std::uint32_t seed) {
   return static_cast<float>(phase - std::floor(phase));
 }
 
-/// Distance of most particles from the column above the emitter.
-float usual_radius(const PlacedEmitter& emitter) {
-  const KindProperties kind = kind_of(emitter.values);
-  const float life = emitter.values.lifetime_s, way = (1.0f - std::exp(-kind.drag * life)) / kind.drag;
-  float box = 0.0f;
-  for (const vec3& edge : emitter.box) box = std::max({box, std::abs(edge.x), std::abs(edge.z)});
-  const float sideways = emitter.values.speed * std::sin(std::min(emitter.values.spread, 0.5f * kPi)) * way;
-  return 0.25f * box + 0.4f * sideways + 0.1f * kind.turbulence * life + 0.1f * emitter.largest_m +
-         1e-4f / emitter.values.metres_per_unit;
+/// Mean of sprite_shape.glsl over a disc, with noise of the mean 0.5 and the standard deviation 0.19.
+float mean_shape(float erosion) {
+  constexpr int kSteps = 16;
+  float sum = 0.0f;
+  for (int i = 0; i < kSteps; ++i)
+    for (const float noise : {0.31f, 0.69f}) {
+      const float inside = (static_cast<float>(i) + 0.5f) / kSteps;  // uniform over the disc
+      const float body = std::clamp((inside + (noise - 1.0f) * erosion) / (1.0f - 0.6f * erosion), 0.0f, 1.0f);
+      sum += inside * body * (2.0f - body);
+    }
+  return sum / (2.0f * kSteps);
+}
+
+/// How wide and how dense the plume is: across the axis, of all particles together.
+void set_plume(const PlacedEmitter& emitter, const KindProperties& kind, shaders::ParticleEmitterRow& row) {
+  const float c = std::cos(emitter.values.spread), speed = emitter.values.speed;
+  row.mean_speed = 0.5f * (1.0f + c) * speed;
+  // Cosines are uniform in c…1, and the squares of the factors of speed have the mean 1.053.
+  row.way_wide2 = 1.053f * speed * speed * 0.5f * (1.0f - (1.0f + c + c * c) / 3.0f);
+  float across = 0.0f;
+  for (const vec3& edge : emitter.box) {
+    const float along = glm::dot(edge, emitter.axis);
+    across += std::max(glm::dot(edge, edge) - along * along, 0.0f);
+  }
+  row.birth_wide2 = across / 24.0f;  // two axes
+  row.drift_wide2 = kPlumeDrift * kPlumeDrift * kind.turbulence * kind.turbulence;
+  const float radius = 0.5f * emitter.values.size_m;
+  row.hiding = kPlumeShade * static_cast<float>(emitter.rate) * kPi * radius * radius * 1.02f *
+               mean_shape(kind.erosion) * kind.cover;
 }
 
 void set_directions(const PlacedEmitter& emitter, shaders::ParticleEmitterRow& row) {
@@ -81,7 +107,9 @@ shaders::ParticleEmitterRow emitter_row(const PlacedEmitter& emitter, const Visi
   row.box_z = emitter.box[2];
   row.speed = emitter.values.speed;
   set_directions(emitter, row);
-  set_kind(kind_of(emitter.values), row);
+  const KindProperties kind = kind_of(emitter.values);
+  set_kind(kind, row);
+  set_plume(emitter, kind, row);
   row.emission *= view.light_scale;
   row.seed = seed_of(emitter.entity);
   row.oldest = static_cast<std::uint32_t>(visible.live.oldest);
@@ -94,7 +122,6 @@ shaders::ParticleEmitterRow emitter_row(const PlacedEmitter& emitter, const Visi
   row.step_decay = std::exp(-row.drag * row.swirl_step_s);
   row.step_way = -std::expm1(-row.drag * row.swirl_step_s) / row.drag;
   row.swirl_time = swirl_time(step, row.seed);
-  row.inverse_radius = 1.0f / usual_radius(emitter);
   row.map_slice = -1.0f;
   set_lights(lights, indices, row);
   return row;

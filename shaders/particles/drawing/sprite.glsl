@@ -18,7 +18,7 @@ layout(location = 1) in vec3 in_light;
 layout(location = 2) in vec3 in_relative;
 layout(location = 3) flat in vec4 in_look;
 layout(location = 4) flat in vec4 in_emission;
-layout(location = 5) flat in vec3 in_center;
+layout(location = 5) flat in uint in_outward;
 layout(location = 6) flat in uint in_emitter;
 
 layout(location = 0) out vec4 out_light;
@@ -46,7 +46,7 @@ void main() {
   vec3 light = in_light;
 #ifdef GLOAM_PARTICLE_PIXEL
   light = scattered_light(emitters[in_emitter], in_relative,
-                          outward_direction(emitters[in_emitter], in_center, in_corner.xy));
+                          outward_direction(in_outward, in_corner.xy));
 #endif
   float cover = alpha * in_look.w;
   out_light = vec4(min(light * cover + in_emission.rgb * alpha, vec3(65504.0)), cover);

@@ -23,7 +23,7 @@ layout(location = 1) out vec3 out_light;
 layout(location = 2) out vec3 out_relative;
 layout(location = 3) flat out vec4 out_look;      // opacity, view depth, 1 / fade distance, cover
 layout(location = 4) flat out vec4 out_emission;  // and erosion
-layout(location = 5) flat out vec3 out_center;
+layout(location = 5) flat out uint out_outward;
 layout(location = 6) flat out uint out_emitter;
 
 vec3 light_of(uint sprite, uint corner) {
@@ -51,6 +51,6 @@ void main() {
   out_relative = relative;
   out_look = vec4(p.opacity, view_depth(view, p.position), 1.0 / max(0.7 * p.radius_m, 1e-4), e.cover);
   out_emission = vec4(e.emission * mix(vec3(1.0), e.cooled, p.life * p.life), e.erosion);
-  out_center = p.position;
+  out_outward = p.outward;
   out_emitter = p.look & 0xFFFFu;
 }

@@ -33,7 +33,7 @@ void main() {
   for (uint i = 0u; i < kLitPoints; ++i) {
     vec2 corner = kLitPoints == 1u ? vec2(0.0) : (vec2(i & 1u, i >> 1u) * 2.0 - 1.0) * kLitCorner;
     vec3 at = p.position + p.radius_m * (corner.x * frame.right + corner.y * frame.up);
-    vec3 sum = scattered_light(e, at, outward_direction(e, p.position, corner));
+    vec3 sum = scattered_light(e, at, outward_direction(p.outward, corner));
     light[sprite * kLitPoints + i] = uvec2(packHalf2x16(sum.rg), packHalf2x16(vec2(sum.b, 0.0)));
   }
 }

@@ -9,7 +9,7 @@
 //
 // A particle is a small volume, without a surface. Of the light L from all directions ω it scatters
 //   albedo · ∫ L(ω) (1 + n · ω) dω / 4π
-// where n, shorter than 1, points out of the cloud and out of the sprite: it stands for the light that the cloud itself
+// where n, shorter than 1, points out of the plume and out of the sprite: it stands for the light that the plume itself
 // keeps away from the far side. Only ∫ L dω and ∫ L ω dω enter, which are the texels of the baked light. Shadow maps
 // are not looked up: sprites would show their planes.
 
@@ -77,12 +77,11 @@ vec3 scattered_light(ParticleEmitterRow e, vec3 position, vec3 outward) {
   return min(light, vec3(65504.0));
 }
 
-// The direction n of a point of a sprite: out of the emitter's column, and out of the sprite. corner: the point's place
-// in the sprite, −1…1 along the picture's axes.
-vec3 outward_direction(ParticleEmitterRow e, vec3 center, vec2 corner) {
-  vec2 side = (center - e.origin).xz * e.inverse_radius;
-  side *= 0.68 * inversesqrt(1.0 + dot(side, side));
-  return vec3(side.x, 0.0, side.y) + 0.22 * (corner.x * frame.right + corner.y * frame.up);
+// The direction n of a point of a sprite: out of the plume, and out of the sprite. plume: Particle::outward. corner: the
+// point's place in the sprite, −1…1 along the picture's axes.
+vec3 outward_direction(uint plume, vec2 corner) {
+  vec3 outward = (vec3(uvec3(plume, plume >> 10u, plume >> 20u) & 1023u) - 512.0) / 511.0;
+  return outward + 0.22 * (corner.x * frame.right + corner.y * frame.up);
 }
 
 #endif

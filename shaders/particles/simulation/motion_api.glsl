@@ -63,6 +63,31 @@ vec3 particle_flow(ParticleEmitterRow e, vec3 at, float age, float then) {
   return e.turbulence * swirl(at * e.inverse_swirl, e.swirl_time + (then - age) / GLOAM_PARTICLE_SWIRL_PERIOD);
 }
 
+// The vector in 10 bits for each axis; 0 is exact. v: each component in −1…1.
+uint packed_outward(vec3 v) {
+  uvec3 bits = uvec3(clamp(v, -1.0, 1.0) * 511.0 + 512.5);
+  return bits.x | (bits.y << 10u) | (bits.z << 20u);
+}
+
+// Where light comes from that the plume does not keep away: out of it, across its way. Particles of one age lie around
+// a middle in a normal distribution; a plume of these with the optical depth τ lets exp(−τ/2 (1 ± erf)) through from
+// either side, so that the light of both sides together, 1 ± n, has n = tanh(τ/2 · erf(d / (√2 σ))).
+// off: from the middle of the particles of this age. pace: along the plume, m of it for a second of age. way: of
+// calm_way(), with age. at_age: factor of the size.
+vec3 outward_of_plume(ParticleEmitterRow e, vec3 off, vec3 pace, float way, float age, float at_age, float opacity) {
+  float radius = 0.5 * e.size_m * at_age;
+  float places = e.birth_wide2 + e.way_wide2 * way * way + e.drift_wide2 * age * age;
+  float wide2 = max(places + 0.16 * radius * radius, 1e-30);
+  // A plume no longer than it is wide is a cloud, whose middle is a point. Turbulence and the different speeds at birth,
+  // whose variance is 0.053, draw out one that stands still.
+  float drawn2 = places + 0.053 * (e.mean_speed * way) * (e.mean_speed * way);
+  float pace2 = dot(pace, pace) + drawn2 * e.inverse_life * e.inverse_life + 4.0 * e.drift_wide2 + 1e-30;
+  vec3 across = off - pace * (dot(off, pace) / pace2);
+  float half_depth = e.hiding * at_age * at_age * opacity * inversesqrt(pace2 * wide2) * 0.19947;  // 1 / (2 √(2π))
+  vec3 steps = across * (0.8 * inversesqrt(wide2));
+  return steps * (half_depth * inversesqrt(1.0 + dot(steps, steps) * (1.0 + half_depth * half_depth)));
+}
+
 // The live particle k of the emitter, which has this row.
 Particle particle_state(ParticleEmitterRow e, uint row, uint k) {
   uvec4 lot_a = particle_lot(e.seed, e.oldest + k, 0u), lot_b = particle_lot(e.seed, e.oldest + k, 1u);
@@ -87,11 +112,17 @@ Particle particle_state(ParticleEmitterRow e, uint row, uint k) {
 
   Particle p;
   p.life = min(age * e.inverse_life, 1.0);
-  p.position = e.origin + birth + calm_way(e, v, age * decay_mean(e.drag * age), age) + drift;
-  p.radius_m = 0.5 * e.size_m * mix(GLOAM_PARTICLE_SMALLEST, GLOAM_PARTICLE_LARGEST, a.w) * mix(1.0, e.growth, p.life);
+  float calm = age * decay_mean(e.drag * age), at_age = mix(1.0, e.growth, p.life);
+  p.position = e.origin + birth + calm_way(e, v, calm, age) + drift;
+  p.radius_m = 0.5 * e.size_m * mix(GLOAM_PARTICLE_SMALLEST, GLOAM_PARTICLE_LARGEST, a.w) * at_age;
   p.angle = 2.0 * kPi * b.w + e.spin * age * (2.0 * b.z - 1.0);
   p.opacity = particle_opacity(e, p.life);
   p.look = (row & 0xFFFFu) | (lot_b.w & 0xFFFF0000u);
+  vec3 middle = e.mean_speed * e.axis;
+  float calmed = e.drag * calm;
+  vec3 pace = middle * (1.0 - calmed) + vec3(0.0, e.rise * calmed, 0.0);
+  p.outward =
+      packed_outward(outward_of_plume(e, birth + (v - middle) * calm + drift, pace, calm, age, at_age, p.opacity));
   return p;
 }
 

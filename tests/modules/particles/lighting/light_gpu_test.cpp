@@ -46,7 +46,7 @@ class ParticleLight : public ParticleTest {
         const double y = copy.lit_points == 1 ? 0.0 : (point & 2u) != 0u ? kTwinCorner : -kTwinCorner;
         const dvec3 at = dvec3(p.position) + static_cast<double>(p.radius_m) *
                                                  (x * dvec3(copy.constants.right) + y * dvec3(copy.constants.up));
-        const dvec3 n = twin_outward(row, copy.constants, dvec3(p.position), x, y);
+        const dvec3 n = twin_outward(row, copy.constants, p, x, y);
         const dvec3 wanted = expected(at, n, dvec3(row.albedo));
         const dvec3 found(copy.light_at(i * copy.lit_points + point));
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], wanted[c], 2e-3 * wanted[c] + 1e-6) << i << ", " << point;

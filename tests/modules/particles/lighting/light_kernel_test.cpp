@@ -33,7 +33,6 @@ struct Lit {
     for (std::uint32_t i = 0; i < 6; ++i) {
       shaders::ParticleEmitterRow row{};
       row.origin = 2.0f * any();
-      row.inverse_radius = 1.5f;
       row.albedo = glm::abs(any());
       row.forward = 0.9f * std::abs(unit(random));
       row.light_count = i % 5;
@@ -54,6 +53,7 @@ struct Lit {
       p.look = i % 6;
       p.position = scene.emitters[p.look].origin + any();
       p.radius_m = 0.2f * std::abs(unit(random));
+      p.outward = static_cast<std::uint32_t>(random()) & 0x3FFFFFFFu;
       scene.particles.push_back(p);
       scene.order.push_back((i * 77) % 300);
     }
@@ -65,7 +65,7 @@ struct Lit {
     const shaders::ParticleFrame frame = scene.frame();
     const dvec3 at =
         dvec3(p.position) + static_cast<double>(p.radius_m) * (x * dvec3(frame.right) + y * dvec3(frame.up));
-    const dvec3 n = twin_outward(e, frame, dvec3(p.position), x, y), albedo(e.albedo);
+    const dvec3 n = twin_outward(e, frame, p, x, y), albedo(e.albedo);
     dvec3 sum;
     dvec4 visibility(1.0);
     if (e.map_slice >= 0.0f) {

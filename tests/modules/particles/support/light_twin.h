@@ -38,14 +38,17 @@ struct TwinLamp {
   return albedo * illuminance * ((1.0 + glm::dot(n, to_light)) / (4.0 * kTwinPi));
 }
 
+/// Particle::outward.
+[[nodiscard]] inline dvec3 unpacked_outward(std::uint32_t bits) {
+  const auto axis = [&](unsigned shift) { return (static_cast<double>((bits >> shift) & 1023u) - 512.0) / 511.0; };
+  return {axis(0), axis(10), axis(20)};
+}
+
 /// The direction n at a point of a sprite.
 [[nodiscard]] inline dvec3 twin_outward(const shaders::ParticleEmitterRow& e, const shaders::ParticleFrame& frame,
-                                        const dvec3& center, double corner_x, double corner_y) {
-  const double x = (center.x - static_cast<double>(e.origin.x)) * static_cast<double>(e.inverse_radius);
-  const double z = (center.z - static_cast<double>(e.origin.z)) * static_cast<double>(e.inverse_radius);
-  const double shorter = 0.68 / std::sqrt(1.0 + x * x + z * z);
+                                        const shaders::Particle& p, double corner_x, double corner_y) {
   const dvec3 bulge = 0.22 * (corner_x * dvec3(frame.right) + corner_y * dvec3(frame.up));
-  return static_cast<double>(e.forward) * (dvec3(shorter * x, 0.0, shorter * z) + bulge);
+  return static_cast<double>(e.forward) * (unpacked_outward(p.outward) + bulge);
 }
 
 }  // namespace gloam::test
