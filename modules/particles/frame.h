@@ -22,6 +22,7 @@ struct SimulationDispatch {
   shaders::ParticleDispatch constants{};
   std::uint32_t groups = 0;
   bool one_emitter = false;  ///< all groups are of the emitter constants.row
+  bool paths = false;        ///< emitters of the groups have paths
 };
 
 /// Points of a sprite at which light is summed before it is drawn.
@@ -37,6 +38,7 @@ struct ParticleInputs {
   shaders::ParticleFrame constants{};
   gpu::Binding::BufferRange constants_range;  ///< `constants`
   gpu::Binding::BufferRange emitters;         ///< shaders::ParticleEmitterRow
+  gpu::Binding::BufferRange poses;            ///< shaders::ParticlePose, of the emitters' paths; at least one
   gpu::Binding::BufferRange groups;           ///< uint: emitter row of each group of places
   std::vector<SimulationDispatch> dispatches;
   BakedLightAtlas atlas;

@@ -36,6 +36,7 @@ class ParticlesModule final : public Module {
     world.register_component<ParticleEmitter>("particle_emitter");
     world.set_resource(particle_flames());
     world.ensure_resource<EmitterSet>();
+    world.ensure_resource<EmitterPaths>();
     world.ensure_resource<EmitterLights>();
     world.ensure_resource<ParticleLightMaps>();
   }

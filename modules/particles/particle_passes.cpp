@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "modules/particles/particle_passes.h"
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -51,6 +52,7 @@ shaders::ParticleFrame view_part(const RenderView& view) {
 /// The rows of all emitters in view and the emitter of each group of places.
 struct Rows {
   std::vector<shaders::ParticleEmitterRow> emitters;
+  std::vector<shaders::ParticlePose> poses;  ///< at least one
   std::vector<std::uint32_t> groups;
 };
 
@@ -74,10 +76,12 @@ Rows make_rows(const FrameBuilder& frame, const VisibleEmitters& visible, bool t
     row.keys_per_m = static_cast<float>(keys[i].keys_per_m);
     if (const std::uint32_t map = lights.emitters[seen.emitter].map; map != ~0u)
       set_map(maps.maps[map], plan.first_slice[map], frame.view(), row);
+    add_path(emitter, frame.view(), visible.step, row, rows.poses);
     const std::size_t groups = (row.count + GLOAM_PARTICLE_GROUP - 1) / GLOAM_PARTICLE_GROUP;
     rows.groups.insert(rows.groups.end(), groups, static_cast<std::uint32_t>(i));
     rows.emitters.push_back(row);
   }
+  if (rows.poses.empty()) rows.poses.emplace_back();  // a binding must not be empty
   return rows;
 }
 
@@ -98,7 +102,12 @@ ParticleInputs upload_inputs(FrameBuilder& frame, const VisibleEmitters& visible
   inputs.constants.atlas_scale = 1.0f / glm::max(vec3(plan.size), vec3(1.0f));
   inputs.constants_range = frame.upload_uniform(inputs.constants);
   inputs.emitters = frame.upload_items(std::span<const shaders::ParticleEmitterRow>(rows.emitters));
+  inputs.poses = frame.upload_items(std::span<const shaders::ParticlePose>(rows.poses));
   inputs.dispatches = simulation_dispatches(rows.groups);
+  const auto moves = [](const shaders::ParticleEmitterRow& row) { return row.path_poses > 0; };
+  const bool any_moves = std::ranges::any_of(rows.emitters, moves);
+  for (SimulationDispatch& dispatch : inputs.dispatches)
+    dispatch.paths = dispatch.one_emitter ? moves(rows.emitters[dispatch.constants.row]) : any_moves;
   inputs.groups = frame.upload_items(std::span<const std::uint32_t>(rows.groups));
   return inputs;
 }
@@ -121,7 +130,8 @@ void add_particle_passes(FrameBuilder& frame) {
 void list_particle_pipelines(ParticleLighting lighting, const ParticleLightVersion& version, bool threads_in_turn,
                              PipelineList& list) {
   const auto add = [&](const ComputeProgram& program) { list.push_back(pipeline_desc(program, "particles")); };
-  for (const bool one_emitter : {true, false}) add(particle_simulation_program(one_emitter));
+  for (const bool one_emitter : {true, false})
+    for (const bool paths : {true, false}) add(particle_simulation_program(one_emitter, paths));
   for (const ComputeProgram& program : particle_sort_programs(threads_in_turn)) add(program);
   const std::uint32_t points = lit_points(lighting);
   if (points > 0) add(particle_light_program(version, points));

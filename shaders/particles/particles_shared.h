@@ -72,10 +72,22 @@ struct ParticleEmitterRow {
   float way_wide2;        // variance of speeds across the axis at birth, m²/s²
   float drift_wide2;      // variance of the turbulence's speeds that widens the column, m²/s²
   float hiding;           // area that sprites of the size at birth and opacity 1, born in one second, hide: m²/s
+  uint path_first;        // first pose of the emitter's path, the oldest
+  uint path_poses;        // 0: the emitter rests
   uvec4 lights;           // indices in the view's LightBlock; the first light_count are used
   vec4 light_weights;
   uvec4 light_channels;  // of the map's visibility, or GLOAM_PARTICLE_UNBAKED
   uint light_count;
+};
+
+/// Where an emitter was. Poses of a path follow each other in time; two of the same age are a jump.
+struct ParticlePose {
+  vec3 origin;  // these as in ParticleEmitterRow
+  float age_s;  // of a particle that was born there
+  vec3 box_x;
+  vec3 box_y;
+  vec3 box_z;
+  vec3 axis;
 };
 
 /// Constants that the particles of one view share.

@@ -61,11 +61,17 @@ std::vector<PlacedEmitter> gather_bake_emitters(const World& world, const Partic
     return options.emitters.empty() || std::ranges::find(options.emitters, entity) != options.emitters.end();
   };
   std::vector<PlacedEmitter> emitters;
+  const EmitterSet* set = world.try_resource<EmitterSet>();
   world.view<const ParticleEmitter, const WorldTransform>().each(
       [&](Entity entity, const ParticleEmitter& emitter, const WorldTransform& transform) {
         PlacedEmitter placed;
-        if (emits(emitter) && is_chosen(entity) && place_emitter(entity, emitter, transform.matrix, placed))
+        if (emits(emitter) && is_chosen(entity) && place_emitter(entity, emitter, transform.matrix, placed)) {
+          // The volume of a moment holds the trail of an emitter that moves.
+          if (options.moment == BakedMoment::now && set != nullptr)
+            for (const PlacedEmitter& known : set->emitters)
+              if (known.entity == entity && known.origin == placed.origin) placed.bounds = known.bounds;
           emitters.push_back(placed);
+        }
       });
   std::ranges::sort(emitters, {}, [](const PlacedEmitter& e) { return e.entity.index; });
   return emitters;

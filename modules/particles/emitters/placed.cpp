@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "engine/math/finite.h"
+#include "modules/particles/emitters/births.h"
 #include "modules/particles/emitters/bounds.h"
 
 namespace gloam {
@@ -35,6 +37,38 @@ ParticleEmitter clamped(ParticleEmitter e) {
   return e;
 }
 
+/// The values' pose at a matrix; none if it is not finite.
+std::optional<PlacedPose> pose_of(const ParticleEmitter& values, const dmat4& world_from_node) {
+  if (!has_finite_columns(world_from_node)) return std::nullopt;
+  PlacedPose pose;
+  pose.origin = dvec3(world_from_node[3]);
+  for (int i = 0; i < 3; ++i) {
+    pose.box[i] = vec3(dvec3(world_from_node[i]) * static_cast<double>(values.box_m[i]));
+    if (!is_finite(pose.box[i])) return std::nullopt;
+  }
+  const dvec3 up(world_from_node[1]);
+  const double length = glm::length(up);
+  pose.axis = length > 0.0 && std::isfinite(length) ? vec3(up / length) : vec3(0.0f, 1.0f, 0.0f);
+  return pose;
+}
+
+void take_pose(const PlacedPose& pose, PlacedEmitter& placed) {
+  placed.origin = pose.origin;
+  for (std::size_t i = 0; i < 3; ++i) placed.box[i] = pose.box[i];
+  placed.axis = pose.axis;
+}
+
+/// Whether the host has put the node or an ancestor elsewhere.
+bool is_teleported(const PathSources& sources, Entity node) {
+  if (sources.teleports == nullptr || sources.teleports->entities.empty()) return false;
+  while (true) {
+    if (std::ranges::find(sources.teleports->entities, node) != sources.teleports->entities.end()) return true;
+    const Parent* parent = sources.nodes.try_get<const Parent>(node);
+    if (parent == nullptr) return false;
+    node = parent->entity;
+  }
+}
+
 }  // namespace
 
 bool emits(const ParticleEmitter& emitter) {
@@ -42,22 +76,50 @@ bool emits(const ParticleEmitter& emitter) {
 }
 
 bool place_emitter(Entity entity, const ParticleEmitter& emitter, const dmat4& world_from_node, PlacedEmitter& placed) {
-  if (!has_finite_values(emitter) || !has_finite_columns(world_from_node)) return false;
+  if (!has_finite_values(emitter)) return false;
   placed = {};
   placed.entity = entity;
   placed.values = clamped(emitter);
   placed.rate = static_cast<double>(placed.values.rate);
-  placed.origin = dvec3(world_from_node[3]);
-  for (int i = 0; i < 3; ++i) {
-    placed.box[i] = vec3(dvec3(world_from_node[i]) * static_cast<double>(placed.values.box_m[i]));
-    if (!is_finite(placed.box[i])) return false;
-  }
-  const dvec3 up(world_from_node[1]);
-  const double length = glm::length(up);
-  placed.axis = length > 0.0 && std::isfinite(length) ? vec3(up / length) : vec3(0.0f, 1.0f, 0.0f);
+  const std::optional<PlacedPose> pose = pose_of(placed.values, world_from_node);
+  if (!pose) return false;
+  take_pose(*pose, placed);
   placed.largest_m = largest_sprite_m(placed.values);
   placed.bounds = emitter_bounds(placed);
   return placed.bounds.known();
+}
+
+void place_path(const EmitterPath& path, PlacedEmitter& placed) {
+  placed.path.clear();
+  PlacedEmitter at = placed;
+  for (const TimedPose& timed : path) {
+    std::optional<PlacedPose> pose = pose_of(placed.values, timed.matrix);
+    if (!pose) continue;
+    take_pose(*pose, at);
+    const WorldBox bounds = emitter_bounds(at);
+    if (!bounds.known()) continue;
+    placed.bounds.min = glm::min(placed.bounds.min, bounds.min);
+    placed.bounds.max = glm::max(placed.bounds.max, bounds.max);
+    pose->time_s = timed.time_s;
+    placed.path.push_back(*pose);
+  }
+}
+
+EmitterPath find_path(const PathSources& sources, const PoseSampler* sampler, const PlacedEmitter& placed,
+                      const dmat4& matrix, EmitterPath& noted) {
+  // Ages are counted in steps.
+  const double time_s = static_cast<double>(particle_step(sources.clock.time_s)) / kParticleStepsPerSecond;
+  const double lifetime_s = static_cast<double>(placed.values.lifetime_s);
+  if (sampler != nullptr && sampler->moves(placed.entity)) {
+    noted.clear();
+    const double least_jump = 0.05 / static_cast<double>(placed.values.metres_per_unit);
+    EmitterPath path = sampled_path([&](double at) { return sampler->world_from_node(placed.entity, at); }, time_s,
+                                    lifetime_s, least_jump);
+    return rests(path) ? EmitterPath() : path;
+  }
+  const bool stands = sources.clock.dt_s == 0.0 && !noted.empty() && noted.back().time_s == time_s;
+  note_pose(noted, time_s, matrix, stands || is_teleported(sources, placed.entity), lifetime_s);
+  return noted.size() > 1 ? noted : EmitterPath();
 }
 
 double limit_particles(std::vector<PlacedEmitter>& emitters) {
@@ -71,18 +133,31 @@ double limit_particles(std::vector<PlacedEmitter>& emitters) {
   return all - kMostParticles;
 }
 
-void particle_emitters_system(View<const ParticleEmitter, const WorldTransform> emitters, Resource<EmitterSet> set) {
+void particle_emitters_system(View<const ParticleEmitter, const WorldTransform> emitters, PlacingView nodes,
+                              Resource<const SceneClock> clock, OptionalResource<const AnimationBindings> bindings,
+                              OptionalResource<const SceneAssets> assets, OptionalResource<const Teleports> teleports,
+                              Resource<EmitterPaths> paths, Resource<EmitterSet> set) {
+  const PathSources sources = {nodes, bindings.get(), assets.get(), teleports.get(), *clock};
+  std::optional<PoseSampler> sampler;
+  if (sources.bindings != nullptr && sources.assets != nullptr && !sources.bindings->poses.empty())
+    sampler.emplace(nodes, *sources.bindings, *sources.assets);
   EmitterSet found;
+  EmitterPaths noted;  // without those of emitters that are gone
   emitters.each([&](Entity entity, const ParticleEmitter& emitter, const WorldTransform& transform) {
     if (!emits(emitter)) return;
     PlacedEmitter placed;
-    if (place_emitter(entity, emitter, transform.matrix, placed))
-      found.emitters.push_back(placed);
-    else
+    if (!place_emitter(entity, emitter, transform.matrix, placed)) {
       ++found.unusable;
+      return;
+    }
+    EmitterPath& path = noted.paths[entity];
+    if (const auto before = paths->paths.find(entity); before != paths->paths.end()) path = std::move(before->second);
+    place_path(find_path(sources, sampler ? &*sampler : nullptr, placed, transform.matrix, path), placed);
+    found.emitters.push_back(std::move(placed));
   });
   std::ranges::sort(found.emitters, {}, [](const PlacedEmitter& e) { return e.entity.index; });
   found.left_out = limit_particles(found.emitters);
+  *paths = std::move(noted);
   *set = std::move(found);
 }
 

@@ -9,14 +9,27 @@
 #include "engine/ecs/view.h"
 #include "engine/math/types.h"
 #include "engine/render/packing/caster_bounds.h"
+#include "engine/scene/assets.h"
 #include "engine/scene/components.h"
+#include "engine/scene/posing/animation.h"
+#include "engine/scene/resources.h"
 #include "engine/schedule/parameters.h"
 #include "modules/particles/components.h"
+#include "modules/particles/emitters/path.h"
+#include "modules/particles/emitters/pose_sampler.h"
 
 namespace gloam {
 
 /// Most particles of a world that are alive at once. With more, all emitters emit fewer by the same factor.
 inline constexpr double kMostParticles = 1e6;
+
+/// Where a moving emitter was. Members as in PlacedEmitter.
+struct PlacedPose {
+  double time_s = 0.0;
+  dvec3 origin = dvec3(0.0);
+  vec3 box[3] = {};
+  vec3 axis = vec3(0.0f);
+};
 
 /// An emitter in the world.
 struct PlacedEmitter {
@@ -26,7 +39,10 @@ struct PlacedEmitter {
   dvec3 origin = dvec3(0.0);  ///< the node's position
   vec3 box[3] = {};           ///< edges of the box, whose middle is the origin
   vec3 axis = vec3(0.0f);     ///< middle of the cone of directions, unit length: the node's +Y
-  WorldBox bounds;            ///< of all sprites at all times
+  /// Of an emitter that has moved while a particle lives: its poses since the birth of the oldest one, in order of time.
+  /// Two of the same time are a jump. Empty: it rests.
+  std::vector<PlacedPose> path;
+  WorldBox bounds;            ///< of all sprites at all times; with a path, of those that live
   float largest_m = 0.0f;     ///< greatest diameter of a sprite
 };
 
@@ -45,10 +61,28 @@ struct EmitterSet {
 [[nodiscard]] bool place_emitter(Entity entity, const ParticleEmitter& emitter, const dmat4& world_from_node,
                                  PlacedEmitter& placed);
 
+/// Sets path and bounds of an emitter that place_emitter() has placed. Poses that are not finite are left out.
+void place_path(const EmitterPath& path, PlacedEmitter& placed);
+
 /// Lowers the rates of all emitters to kMostParticles in total. Returns the number of particles that are left out.
 [[nodiscard]] double limit_particles(std::vector<PlacedEmitter>& emitters);
 
-/// Gathers all emitters of the world.
-void particle_emitters_system(View<const ParticleEmitter, const WorldTransform> emitters, Resource<EmitterSet> set);
+/// What tells where emitters were. Without an animation system there are no bindings, and hosts may have no teleports.
+struct PathSources {
+  const PlacingView& nodes;
+  const AnimationBindings* bindings = nullptr;
+  const SceneAssets* assets = nullptr;
+  const Teleports* teleports = nullptr;
+  SceneClock clock;
+};
+/// The path of an emitter that emits, by path.h. Empty: it rests. noted: what the world has noted of it; changed.
+[[nodiscard]] EmitterPath find_path(const PathSources& sources, const PoseSampler* sampler, const PlacedEmitter& placed,
+                                    const dmat4& matrix, EmitterPath& noted);
+
+/// Gathers all emitters of the world, and the paths of those that move.
+void particle_emitters_system(View<const ParticleEmitter, const WorldTransform> emitters, PlacingView nodes,
+                              Resource<const SceneClock> clock, OptionalResource<const AnimationBindings> bindings,
+                              OptionalResource<const SceneAssets> assets, OptionalResource<const Teleports> teleports,
+                              Resource<EmitterPaths> paths, Resource<EmitterSet> set);
 
 }  // namespace gloam

@@ -127,4 +127,20 @@ shaders::ParticleEmitterRow emitter_row(const PlacedEmitter& emitter, const Visi
   return row;
 }
 
+void add_path(const PlacedEmitter& emitter, const RenderView& view, std::int64_t step, shaders::ParticleEmitterRow& row,
+              std::vector<shaders::ParticlePose>& poses) {
+  const double time_s = static_cast<double>(step) / kParticleStepsPerSecond;
+  row.path_first = static_cast<std::uint32_t>(poses.size());
+  row.path_poses = static_cast<std::uint32_t>(emitter.path.size());
+  for (const PlacedPose& pose : emitter.path) {
+    shaders::ParticlePose& added = poses.emplace_back();
+    added.origin = view.relative(pose.origin);
+    added.age_s = static_cast<float>(time_s - pose.time_s);
+    added.box_x = pose.box[0];
+    added.box_y = pose.box[1];
+    added.box_z = pose.box[2];
+    added.axis = pose.axis;
+  }
+}
+
 }  // namespace gloam

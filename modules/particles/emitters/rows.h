@@ -3,6 +3,7 @@
 #pragma once
 
 #include <unordered_map>
+#include <vector>
 
 #include "engine/ecs/entity.h"
 #include "engine/render/view.h"
@@ -21,5 +22,9 @@ using LightIndices = std::unordered_map<Entity, std::uint32_t>;
 [[nodiscard]] shaders::ParticleEmitterRow emitter_row(const PlacedEmitter& emitter, const VisibleEmitter& visible,
                                                       const LightsOfEmitter& lights, const LightIndices& indices,
                                                       const RenderView& view, std::int64_t step, std::uint32_t first);
+
+/// Adds the emitter's path to the poses of a view, and its place there to the row. It has none if it rests.
+void add_path(const PlacedEmitter& emitter, const RenderView& view, std::int64_t step, shaders::ParticleEmitterRow& row,
+              std::vector<shaders::ParticlePose>& poses);
 
 }  // namespace gloam

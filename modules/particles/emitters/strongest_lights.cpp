@@ -33,6 +33,36 @@ bool place_light(Entity entity, const Light& light, const dmat4& matrix, Emitter
   return placed.emitted > 0.0 && !std::isnan(placed.outer_angle);
 }
 
+/// Whether the map's volume holds all of the box, but for rounding.
+bool holds(const ParticleLightMap& map, const WorldBox& box) {
+  const double slack = 1e-4 * glm::length(box.max - box.min);
+  const dvec3 from = map.origin + dvec3(map.box.min) - slack, to = map.origin + dvec3(map.box.max) + slack;
+  return glm::all(glm::lessThanEqual(from, box.min)) && glm::all(glm::lessThanEqual(box.max, to));
+}
+
+double volume_of(const ParticleLightMap& map) {
+  const dvec3 side = dvec3(map.box.max) - dvec3(map.box.min);
+  return side.x * side.y * side.z;
+}
+
+/// The map that lights an emitter: its own if it is where its map was made; otherwise the smallest whose volume it is
+/// in. Null if there is none that shows today's lights. current: whether it does, by map.
+const ParticleLightMap* map_for(const PlacedEmitter& emitter, const ParticleLightMaps& maps,
+                                const std::vector<bool>& current) {
+  const auto shows_today = [&](const ParticleLightMap& map) {
+    return current[static_cast<std::size_t>(&map - maps.maps.data())];
+  };
+  const ParticleLightMap* own = find_light_map(maps, emitter.entity);
+  if (own != nullptr && shows_today(*own) && own->origin == emitter.origin &&
+      (emitter.path.empty() || holds(*own, emitter.bounds)))
+    return own;
+  const ParticleLightMap* found = nullptr;
+  for (const ParticleLightMap& map : maps.maps)
+    if (shows_today(map) && holds(map, emitter.bounds) && (found == nullptr || volume_of(map) < volume_of(*found)))
+      found = &map;
+  return found;
+}
+
 }  // namespace
 
 double light_strength(const EmitterLight& light, const WorldBox& box) {
@@ -119,15 +149,19 @@ void particle_lights_system(View<const Light, const WorldTransform> lights, Reso
   const std::vector<std::uint32_t> slices = first_slices(maps->maps);
   chosen->emitters.clear();
   chosen->outdated = 0;
+  std::vector<bool> current;  // by map
+  for (std::size_t i = 0; i < maps->maps.size(); ++i) {
+    const ParticleLightMap& map = maps->maps[i];
+    current.push_back(slices[i] != kNoSlices && is_usable(map) && states.of(map.static_lights) == map.static_state &&
+                      states.of(map.lights) == map.dynamic_state);
+  }
   for (const PlacedEmitter& emitter : set->emitters) {
-    const ParticleLightMap* map = find_light_map(*maps, emitter.entity);
-    if (map != nullptr && slices[static_cast<std::size_t>(map - maps->maps.data())] == kNoSlices) map = nullptr;
-    const bool current = map != nullptr && map->origin == emitter.origin &&
-                         states.of(map->static_lights) == map->static_state &&
-                         states.of(map->lights) == map->dynamic_state;
-    chosen->outdated += map != nullptr && !current ? 1 : 0;
-    chosen->emitters.push_back(strongest_lights(placed, emitter.bounds, current ? map : nullptr));
-    if (current) chosen->emitters.back().map = static_cast<std::uint32_t>(map - maps->maps.data());
+    const ParticleLightMap* own = find_light_map(*maps, emitter.entity);
+    if (own != nullptr && slices[static_cast<std::size_t>(own - maps->maps.data())] == kNoSlices) own = nullptr;
+    const ParticleLightMap* map = map_for(emitter, *maps, current);
+    chosen->outdated += own != nullptr && own != map ? 1 : 0;
+    chosen->emitters.push_back(strongest_lights(placed, emitter.bounds, map));
+    if (map != nullptr) chosen->emitters.back().map = static_cast<std::uint32_t>(map - maps->maps.data());
   }
 }
 

@@ -23,6 +23,7 @@ SimulationRows::SimulationRows() {
 
 void SimulationRows::add(const PlacedEmitter& emitter, std::int64_t step) {
   shaders::ParticleEmitterRow row = row_at(emitter, step, view.position, static_cast<std::uint32_t>(places()));
+  add_path(emitter, view, step, row, poses);
   row.far_m = 40.0f;
   row.keys = kTwoDigitKeys;
   row.keys_per_m = static_cast<float>(row.keys) / row.far_m;
@@ -44,12 +45,13 @@ shaders::ParticleFrame SimulationRows::frame() const {
 }
 
 Result<ParticleStates> run_particles(const KernelLab& lab, const SimulationRows& rows) {
-  KernelRun kernel(lab, shaders::particles::simulate_comp, {{"kOneEmitter", 0u}});
+  KernelRun kernel(lab, shaders::particles::simulate_comp, {{"kOneEmitter", 0u}, {"kPaths", rows.poses.empty() ? 0u : 1u}});
   kernel.push(shaders::ParticleDispatch{});
   kernel.input(0, std::vector{view_constants(rows.view)});
   kernel.input(1, std::vector{rows.frame()});
   kernel.input(2, rows.rows);
   kernel.input(3, rows.groups);
+  kernel.input(6, rows.poses.empty() ? std::vector<shaders::ParticlePose>(1) : rows.poses);
   kernel.output(4, rows.places() * sizeof(shaders::Particle));
   kernel.output(5, rows.places() * sizeof(std::uint32_t));
   GLOAM_TRY(kernel.run(static_cast<std::uint32_t>(rows.groups.size())));

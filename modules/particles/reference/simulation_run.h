@@ -26,6 +26,7 @@ struct ParticleStates {
 struct SimulationRows {
   RenderView view;
   std::vector<shaders::ParticleEmitterRow> rows;
+  std::vector<shaders::ParticlePose> poses;
   std::vector<std::uint32_t> groups;
 
   /// A view of 320×180 pixels from 6 m.

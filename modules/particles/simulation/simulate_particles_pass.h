@@ -11,8 +11,8 @@
 
 namespace gloam {
 
-/// one_emitter: for dispatches of one emitter.
-[[nodiscard]] ComputeProgram particle_simulation_program(bool one_emitter);
+/// one_emitter, paths: as in SimulationDispatch.
+[[nodiscard]] ComputeProgram particle_simulation_program(bool one_emitter, bool paths);
 
 /// Emitters of as many groups have a dispatch each, up to kMostOwnDispatches.
 inline constexpr std::uint32_t kLeastOwnGroups = 8, kMostOwnDispatches = 64;

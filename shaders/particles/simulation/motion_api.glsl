@@ -88,11 +88,14 @@ vec3 outward_of_plume(ParticleEmitterRow e, vec3 off, vec3 pace, float way, floa
   return steps * (half_depth * inversesqrt(1.0 + dot(steps, steps) * (1.0 + half_depth * half_depth)));
 }
 
-// The live particle k of the emitter, which has this row.
-Particle particle_state(ParticleEmitterRow e, uint row, uint k) {
+// age of the live particle k of the emitter.
+float particle_age(ParticleEmitterRow e, uint k) { return max(e.oldest_age_s - float(k) * e.interval_s, 0.0); }
+
+// The live particle k of the emitter, which has this row. carried: velocity of the emitter at the particle's birth.
+Particle particle_state(ParticleEmitterRow e, uint row, uint k, vec3 carried) {
   uvec4 lot_a = particle_lot(e.seed, e.oldest + k, 0u), lot_b = particle_lot(e.seed, e.oldest + k, 1u);
   vec4 a = unit_lot(lot_a), b = unit_lot(lot_b);
-  float age = max(e.oldest_age_s - float(k) * e.interval_s, 0.0);
+  float age = particle_age(e, k);
   vec3 birth = (a.x - 0.5) * e.box_x + (a.y - 0.5) * e.box_y + (a.z - 0.5) * e.box_z;
   float cosine = mix(1.0, e.cos_spread, b.x), sine = sqrt(max(1.0 - cosine * cosine, 0.0));
   vec2 about = unit_circle(b.y);
@@ -120,7 +123,7 @@ Particle particle_state(ParticleEmitterRow e, uint row, uint k) {
   p.look = (row & 0xFFFFu) | (lot_b.w & 0xFFFF0000u);
   vec3 middle = e.mean_speed * e.axis;
   float calmed = e.drag * calm;
-  vec3 pace = middle * (1.0 - calmed) + vec3(0.0, e.rise * calmed, 0.0);
+  vec3 pace = middle * (1.0 - calmed) + vec3(0.0, e.rise * calmed, 0.0) - carried;
   p.outward =
       packed_outward(outward_of_plume(e, birth + (v - middle) * calm + drift, pace, calm, age, at_age, p.opacity));
   return p;

@@ -12,6 +12,7 @@
 layout(local_size_x = 64) in;  // GLOAM_PARTICLE_GROUP
 
 layout(constant_id = 0) const uint kOneEmitter = 0u;  // 1: the dispatch has particles of emitter c.row
+layout(constant_id = 1) const uint kPaths = 0u;       // 1: emitters of the dispatch have paths
 
 layout(push_constant, scalar) uniform Constants { ParticleDispatch c; };
 
@@ -21,6 +22,32 @@ layout(set = 0, binding = 2, scalar) readonly buffer Emitters { ParticleEmitterR
 layout(set = 0, binding = 3, scalar) readonly buffer Groups { uint emitter_of_group[]; };
 layout(set = 0, binding = 4, scalar) writeonly buffer Particles { Particle particles[]; };
 layout(set = 0, binding = 5, scalar) writeonly buffer Keys { uint keys[]; };
+layout(set = 0, binding = 6, scalar) readonly buffer Poses { ParticlePose poses[]; };
+
+// Puts the emitter where it was when a particle of this age was born. Returns its velocity then.
+vec3 move_to_birth(inout ParticleEmitterRow e, float age) {
+  uint older = e.path_first, younger = e.path_first + e.path_poses - 1u;
+  for (int i = 0; i < 8; ++i) {  // 256 poses
+    uint middle = (older + younger) / 2u;
+    if (poses[middle].age_s > age)
+      older = middle;
+    else
+      younger = max(middle, older);
+  }
+  ParticlePose a = poses[older], b = poses[younger];
+  float between = a.age_s - b.age_s;
+  float share = clamp((a.age_s - age) / max(between, 1e-6), 0.0, 1.0);
+  e.origin = mix(a.origin, b.origin, share);
+  e.box_x = mix(a.box_x, b.box_x, share);
+  e.box_y = mix(a.box_y, b.box_y, share);
+  e.box_z = mix(a.box_z, b.box_z, share);
+  vec3 axis = mix(a.axis, b.axis, share);
+  e.axis = dot(axis, axis) > 1e-6 ? normalize(axis) : b.axis;
+  vec3 other = abs(e.axis.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0);
+  e.across_x = normalize(cross(other, e.axis));
+  e.across_y = cross(e.axis, e.across_x);
+  return between > 1e-5 ? (b.origin - a.origin) / between : vec3(0.0);
+}
 
 // A sprite that comes near the camera fades out before the near plane cuts it.
 float near_fade(float depth_m, float radius_m) {
@@ -40,7 +67,10 @@ void main() {
   if (kOneEmitter == 0u) row = emitter_of_group[c.first_group + gl_WorkGroupID.x];
   ParticleEmitterRow e = emitters[row];
   uint k = place - e.first;
-  Particle p = particle_state(e, row, min(k, e.count - 1u));
+  uint live = min(k, e.count - 1u);
+  vec3 carried = vec3(0.0);
+  if (kPaths != 0u && e.path_poses > 0u) carried = move_to_birth(e, particle_age(e, live));
+  Particle p = particle_state(e, row, live, carried);
   float depth_m = view_depth(view, p.position);
   p.opacity *= near_fade(depth_m, p.radius_m);
   uint key = frame.culled_key;

@@ -117,7 +117,7 @@ TEST_F(TracedParticles, are_dark_behind_a_wall) {
   const auto [left, right] = halves(trace(stage, view, WallTracer(50.0), drawn), 64);
   const auto [drawn_left, drawn_right] = halves(drawn, 64);
   EXPECT_NEAR(left, drawn_left, 0.1 * drawn_left);
-  EXPECT_GT(drawn_right, 0.1 * drawn_left) << "frames without a map have no shadows";
+  EXPECT_GT(drawn_right, 0.05 * drawn_left) << "frames without a map have no shadows but those of the cloud itself";
   EXPECT_LT(right, 0.2 * drawn_right) << "sprites of the left side reach over the middle";
   // The light of a lamp with its shadow is the same in the flux of a map as beside it.
   for (int i = 0; i < 4; ++i) stage.lamp({-3.0, 0.0, 0.0}, vec3(1.0f), 41.0f, 20.0f);

@@ -133,6 +133,7 @@ TEST_F(ParticleSimulation, a_dispatch_of_one_emitter_gives_the_same_particles_to
   kernel.input(1, std::vector{scene.frame()});
   kernel.input(2, scene.rows);
   kernel.input(3, scene.groups);
+  kernel.input(6, std::vector<shaders::ParticlePose>(1));
   kernel.output(4, all.particles.size() * sizeof(shaders::Particle));
   kernel.output(5, all.keys.size() * sizeof(std::uint32_t));
   kernel.run(groups);
