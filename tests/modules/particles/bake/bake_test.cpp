@@ -246,6 +246,7 @@ TEST(ParticleLightMaps, are_not_used_once_a_light_or_the_emitter_has_changed) {
   const Entity emitter = scene.add_emitter({2.0, 0.0, 0.0});
   const Entity lamp = scene.add_lamp({0.0, 0.0, 0.0});
   scene.world.set_resource(EmitterSet{});
+  scene.world.set_resource(EmitterPaths{});
   scene.world.set_resource(EmitterLights{});
   scene.world.set_resource(scene.bake(kEmpty));
   Schedule schedule;
@@ -298,6 +299,7 @@ TEST(ParticleLightMaps, without_room_in_the_atlas_are_not_used) {
   mark_as_current(scene.world, maps);
   scene.world.set_resource(maps);
   scene.world.set_resource(EmitterSet{});
+  scene.world.set_resource(EmitterPaths{});
   scene.world.set_resource(EmitterLights{});
   Schedule schedule;
   schedule.add_system("particle_emitters", "particles", Stage::world, &particle_emitters_system);
