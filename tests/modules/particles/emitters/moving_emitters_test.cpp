@@ -201,6 +201,7 @@ TEST(MovingEmitters, take_light_from_the_volume_that_they_are_in) {
   };
   EXPECT_EQ(map(0.1, -3.0, false), 0u) << "its own, where it was baked";
   EXPECT_EQ(map(0.2, 5.0, true), 2u) << "its trail is not in the hall yet";
+  EXPECT_EQ(map(1.1, 5.0, false), 2u);
   EXPECT_EQ(map(2.0, 5.0, false), 2u);
   EXPECT_EQ(map(2.5, 5.0, false), 1u);
   EXPECT_EQ(map(2.6, 5.1, false), 1u) << "it moves within the hall";
