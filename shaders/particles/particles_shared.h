@@ -47,8 +47,8 @@ struct ParticleEmitterRow {
   float growth;        // size at death / size at birth
   float spin;          // radians/s
   float opacity;       // 0...1
-  float fade_in;       // shares of the lifetime
-  float fade_out;
+  float per_fade_in;   // 1 / shares of the lifetime
+  float per_fade_out;
   float erosion;
   float cover;
   float forward;
@@ -71,7 +71,11 @@ struct ParticleEmitterRow {
   float birth_wide2;      // variance of places across the column at birth, m²
   float way_wide2;        // variance of speeds across the axis at birth, m²/s²
   float drift_wide2;      // variance of the turbulence's speeds that widens the column, m²/s²
-  float hiding;           // area that sprites of the size at birth and opacity 1, born in one second, hide: m²/s
+  float size_wide2;       // variance of a sprite's opacity at birth, m²
+  float pace2_of_places;  // by which the variance of places draws out a plume: 1 / lifetime²
+  float pace2_of_way;     // and the different speeds at birth: for the square of the way, 1/s⁴ · m²
+  float least_pace2;      // and turbulence, m²/s²
+  float hiding;  // 1 / (2 √(2π)) · area that sprites of the size at birth and opacity 1, born in one second, hide: m²/s
   uint path_first;        // first pose of the emitter's path, the oldest
   uint path_poses;        // 0: the emitter rests
   uvec4 lights;           // indices in the view's LightBlock; the first light_count are used

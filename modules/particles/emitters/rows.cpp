@@ -51,8 +51,13 @@ void set_plume(const PlacedEmitter& emitter, const KindProperties& kind, shaders
   }
   row.birth_wide2 = across / 24.0f;  // two axes
   row.drift_wide2 = kPlumeDrift * kPlumeDrift * kind.turbulence * kind.turbulence;
-  const float radius = 0.5f * emitter.values.size_m;
-  row.hiding = kPlumeShade * static_cast<float>(emitter.rate) * kPi * radius * radius * 1.02f *
+  const float radius = 0.5f * emitter.values.size_m, inverse_life = 1.0f / emitter.values.lifetime_s;
+  row.size_wide2 = 0.16f * radius * radius + 1e-30f;
+  row.pace2_of_places = inverse_life * inverse_life;
+  row.pace2_of_way = 0.053f * row.mean_speed * row.mean_speed * row.pace2_of_places;  // variance of the factors of speed
+  row.least_pace2 = 4.0f * row.drift_wide2 + 1e-30f;
+  constexpr float kMiddle = 0.199471f;  // 1 / (2 √(2π)): half the depth through the middle of a normal distribution
+  row.hiding = kMiddle * kPlumeShade * static_cast<float>(emitter.rate) * kPi * radius * radius * 1.02f *
                mean_shape(kind.erosion) * kind.cover;
 }
 
@@ -72,8 +77,8 @@ void set_kind(const KindProperties& kind, shaders::ParticleEmitterRow& row) {
   row.growth = kind.growth;
   row.spin = kind.spin;
   row.opacity = kind.opacity;
-  row.fade_in = kind.fade_in;
-  row.fade_out = kind.fade_out;
+  row.per_fade_in = 1.0f / kind.fade_in;
+  row.per_fade_out = 1.0f / kind.fade_out;
   row.erosion = kind.erosion;
   row.cover = kind.cover;
   row.forward = kind.forward;

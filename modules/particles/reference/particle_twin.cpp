@@ -97,8 +97,8 @@ TwinParticle twin_particle(const shaders::ParticleEmitterRow& e, std::uint32_t k
     const double t = std::clamp(x, 0.0, 1.0);
     return t * t * (3.0 - 2.0 * t);
   };
-  p.opacity = static_cast<double>(e.opacity) * smooth(p.life / static_cast<double>(e.fade_in)) *
-              smooth((1.0 - p.life) / static_cast<double>(e.fade_out));
+  p.opacity = static_cast<double>(e.opacity) * smooth(p.life * static_cast<double>(e.per_fade_in)) *
+              smooth((1.0 - p.life) * static_cast<double>(e.per_fade_out));
   return p;
 }
 

@@ -54,7 +54,7 @@ vec3 calm_way(ParticleEmitterRow e, vec3 v, float way, float time) {
 
 // share: of the lifetime. Rises from 0, and falls back to 0.
 float particle_opacity(ParticleEmitterRow e, float share) {
-  float rising = clamp(share / e.fade_in, 0.0, 1.0), falling = clamp((1.0 - share) / e.fade_out, 0.0, 1.0);
+  float rising = clamp(share * e.per_fade_in, 0.0, 1.0), falling = clamp((1.0 - share) * e.per_fade_out, 0.0, 1.0);
   return e.opacity * rising * rising * (3.0 - 2.0 * rising) * falling * falling * (3.0 - 2.0 * falling);
 }
 
@@ -63,32 +63,31 @@ vec3 particle_flow(ParticleEmitterRow e, vec3 at, float age, float then) {
   return e.turbulence * swirl(at * e.inverse_swirl, e.swirl_time + (then - age) / GLOAM_PARTICLE_SWIRL_PERIOD);
 }
 
-// The vector in 10 bits for each axis; 0 is exact. v: each component in −1…1.
+// The vector, no longer than 1, in 10 bits for each axis; 0 is exact.
 uint packed_outward(vec3 v) {
-  uvec3 bits = uvec3(clamp(v, -1.0, 1.0) * 511.0 + 512.5);
+  uvec3 bits = uvec3(v * 511.0 + 512.5);
   return bits.x | (bits.y << 10u) | (bits.z << 20u);
 }
 
 // Where light comes from that the plume does not keep away: out of it, across its way. Particles of one age lie around
 // a middle in a normal distribution; a plume of these with the optical depth τ lets exp(−τ/2 (1 ± erf)) through from
-// either side, so that the light of both sides together, 1 ± n, has n = tanh(τ/2 · erf(d / (√2 σ))).
+// either side, so that the light of both sides together, 1 ± n, has n = tanh(τ/2 · erf(d / (√2 σ))). Both functions are
+// x / √(1 + x²) here.
 // off: from the middle of the particles of this age. pace: along the plume, m of it for a second of age. way: of
-// calm_way(), with age. at_age: factor of the size.
-vec3 outward_of_plume(ParticleEmitterRow e, vec3 off, vec3 pace, float way, float age, float at_age, float opacity) {
-  float radius = 0.5 * e.size_m * at_age;
+// calm_way(), with age. growth: factor of the size at birth.
+vec3 outward_of_plume(ParticleEmitterRow e, vec3 off, vec3 pace, float way, float age, float growth, float opacity) {
   float places = e.birth_wide2 + e.way_wide2 * way * way + e.drift_wide2 * age * age;
-  float wide2 = max(places + 0.16 * radius * radius, 1e-30);
-  // A plume no longer than it is wide is a cloud, whose middle is a point. Turbulence and the different speeds at birth,
-  // whose variance is 0.053, draw out one that stands still.
-  float drawn2 = places + 0.053 * (e.mean_speed * way) * (e.mean_speed * way);
-  float pace2 = dot(pace, pace) + drawn2 * e.inverse_life * e.inverse_life + 4.0 * e.drift_wide2 + 1e-30;
-  vec3 across = off - pace * (dot(off, pace) / pace2);
-  float half_depth = e.hiding * at_age * at_age * opacity * inversesqrt(pace2 * wide2) * 0.19947;  // 1 / (2 √(2π))
-  vec3 steps = across * (0.8 * inversesqrt(wide2));
-  return steps * (half_depth * inversesqrt(1.0 + dot(steps, steps) * (1.0 + half_depth * half_depth)));
+  float inverse_wide2 = 1.0 / (places + e.size_wide2 * growth * growth);
+  // A plume no longer than it is wide is a cloud, whose middle is a point.
+  float inverse_pace2 = 1.0 / (dot(pace, pace) + places * e.pace2_of_places + e.pace2_of_way * way * way + e.least_pace2);
+  vec3 across = off - pace * (dot(off, pace) * inverse_pace2);
+  float hidden = e.hiding * growth * growth * opacity;
+  float half_depth2 = (hidden * inverse_pace2) * (hidden * inverse_wide2);
+  float steps2 = 0.64 * inverse_wide2;  // erf(x / √2) has the slope 0.8
+  return across * sqrt(steps2 * half_depth2 / (1.0 + steps2 * dot(across, across) * (1.0 + half_depth2)));
 }
 
-// age of the live particle k of the emitter.
+// Age of the live particle k of the emitter.
 float particle_age(ParticleEmitterRow e, uint k) { return max(e.oldest_age_s - float(k) * e.interval_s, 0.0); }
 
 // The live particle k of the emitter, which has this row. carried: velocity of the emitter at the particle's birth.
@@ -103,29 +102,29 @@ Particle particle_state(ParticleEmitterRow e, uint row, uint k, vec3 carried) {
   vec3 v = direction * (e.speed * mix(GLOAM_PARTICLE_SLOWEST, GLOAM_PARTICLE_FASTEST, b.z));
 
   vec3 drift = vec3(0.0), flow = particle_flow(e, birth, age, 0.0);
-  float way = 0.0;
+  float way = 0.0, half_per_step = 0.5 / e.swirl_step_s;
   for (int i = 1; i <= GLOAM_PARTICLE_SWIRL_STEPS; ++i) {
     // The flow changes linearly during a step, towards the one where it would carry the particle.
     float then = float(i) * e.swirl_step_s, past = clamp(age - then + e.swirl_step_s, 0.0, e.swirl_step_s);
     way = e.step_way + e.step_decay * way;
     vec3 next = particle_flow(e, birth + calm_way(e, v, way, then) + drift + flow * e.swirl_step_s, age, then);
-    drift += past * (flow + (0.5 * past / e.swirl_step_s) * (next - flow));
+    drift += past * (flow + (past * half_per_step) * (next - flow));
     flow = next;
   }
 
   Particle p;
   p.life = min(age * e.inverse_life, 1.0);
-  float calm = age * decay_mean(e.drag * age), at_age = mix(1.0, e.growth, p.life);
-  p.position = e.origin + birth + calm_way(e, v, calm, age) + drift;
-  p.radius_m = 0.5 * e.size_m * mix(GLOAM_PARTICLE_SMALLEST, GLOAM_PARTICLE_LARGEST, a.w) * at_age;
+  float calm = age * decay_mean(e.drag * age), growth = mix(1.0, e.growth, p.life);
+  vec3 thrown = birth + v * calm + drift;
+  p.position = e.origin + vec3(0.0, e.rise * (age - calm), 0.0) + thrown;
+  p.radius_m = 0.5 * e.size_m * mix(GLOAM_PARTICLE_SMALLEST, GLOAM_PARTICLE_LARGEST, a.w) * growth;
   p.angle = 2.0 * kPi * b.w + e.spin * age * (2.0 * b.z - 1.0);
   p.opacity = particle_opacity(e, p.life);
   p.look = (row & 0xFFFFu) | (lot_b.w & 0xFFFF0000u);
   vec3 middle = e.mean_speed * e.axis;
   float calmed = e.drag * calm;
   vec3 pace = middle * (1.0 - calmed) + vec3(0.0, e.rise * calmed, 0.0) - carried;
-  p.outward =
-      packed_outward(outward_of_plume(e, birth + (v - middle) * calm + drift, pace, calm, age, at_age, p.opacity));
+  p.outward = packed_outward(outward_of_plume(e, thrown - middle * calm, pace, calm, age, growth, p.opacity));
   return p;
 }
 
