@@ -76,9 +76,9 @@ struct ParticleEmitterRow {
   float pace2_of_way;     // and the different speeds at birth: for the square of the way, 1/s⁴ · m²
   float least_pace2;      // and turbulence, m²/s²
   float hiding;  // 1 / (2 √(2π)) · area that sprites of the size at birth and opacity 1, born in one second, hide: m²/s
-  uint path_first;        // first pose of the emitter's path, the oldest
-  uint path_poses;        // 0: the emitter rests
-  uvec4 lights;           // indices in the view's LightBlock; the first light_count are used
+  uint path_first;  // first pose of the emitter's path, the oldest
+  uint path_poses;  // 0: the emitter rests
+  uvec4 lights;     // indices in the view's LightBlock; the first light_count are used
   vec4 light_weights;
   uvec4 light_channels;  // of the map's visibility, or GLOAM_PARTICLE_UNBAKED
   uint light_count;

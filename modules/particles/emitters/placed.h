@@ -39,11 +39,11 @@ struct PlacedEmitter {
   dvec3 origin = dvec3(0.0);  ///< the node's position
   vec3 box[3] = {};           ///< edges of the box, whose middle is the origin
   vec3 axis = vec3(0.0f);     ///< middle of the cone of directions, unit length: the node's +Y
-  /// Of an emitter that has moved while a particle lives: its poses since the birth of the oldest one, in order of time.
-  /// Two of the same time are a jump. Empty: it rests.
+  /// Of an emitter that has moved while a particle lives: its poses since the birth of the oldest one, in order of
+  /// time. Two of the same time are a jump. Empty: it rests.
   std::vector<PlacedPose> path;
-  WorldBox bounds;            ///< of all sprites at all times; with a path, of those that live
-  float largest_m = 0.0f;     ///< greatest diameter of a sprite
+  WorldBox bounds;         ///< of all sprites at all times; with a path, of those that live
+  float largest_m = 0.0f;  ///< greatest diameter of a sprite
 };
 
 /// All emitters of the world by entity index; a world resource written by system particle_emitters.

@@ -54,7 +54,8 @@ void set_plume(const PlacedEmitter& emitter, const KindProperties& kind, shaders
   const float radius = 0.5f * emitter.values.size_m, inverse_life = 1.0f / emitter.values.lifetime_s;
   row.size_wide2 = 0.16f * radius * radius + 1e-30f;
   row.pace2_of_places = inverse_life * inverse_life;
-  row.pace2_of_way = 0.053f * row.mean_speed * row.mean_speed * row.pace2_of_places;  // variance of the factors of speed
+  row.pace2_of_way =
+      0.053f * row.mean_speed * row.mean_speed * row.pace2_of_places;  // variance of the factors of speed
   row.least_pace2 = 4.0f * row.drift_wide2 + 1e-30f;
   constexpr float kMiddle = 0.199471f;  // 1 / (2 √(2π)): half the depth through the middle of a normal distribution
   row.hiding = kMiddle * kPlumeShade * static_cast<float>(emitter.rate) * kPi * radius * radius * 1.02f *

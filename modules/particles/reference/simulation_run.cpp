@@ -45,7 +45,8 @@ shaders::ParticleFrame SimulationRows::frame() const {
 }
 
 Result<ParticleStates> run_particles(const KernelLab& lab, const SimulationRows& rows) {
-  KernelRun kernel(lab, shaders::particles::simulate_comp, {{"kOneEmitter", 0u}, {"kPaths", rows.poses.empty() ? 0u : 1u}});
+  KernelRun kernel(lab, shaders::particles::simulate_comp,
+                   {{"kOneEmitter", 0u}, {"kPaths", rows.poses.empty() ? 0u : 1u}});
   kernel.push(shaders::ParticleDispatch{});
   kernel.input(0, std::vector{view_constants(rows.view)});
   kernel.input(1, std::vector{rows.frame()});

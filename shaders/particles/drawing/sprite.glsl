@@ -45,8 +45,7 @@ void main() {
 #else
   vec3 light = in_light;
 #ifdef GLOAM_PARTICLE_PIXEL
-  light = scattered_light(emitters[in_emitter], in_relative,
-                          outward_direction(in_outward, in_corner.xy));
+  light = scattered_light(emitters[in_emitter], in_relative, outward_direction(in_outward, in_corner.xy));
 #endif
   float cover = alpha * in_look.w;
   out_light = vec4(min(light * cover + in_emission.rgb * alpha, vec3(65504.0)), cover);

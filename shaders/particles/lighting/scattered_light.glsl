@@ -77,8 +77,8 @@ vec3 scattered_light(ParticleEmitterRow e, vec3 position, vec3 outward) {
   return min(light, vec3(65504.0));
 }
 
-// The direction n of a point of a sprite: out of the plume, and out of the sprite. plume: Particle::outward. corner: the
-// point's place in the sprite, −1…1 along the picture's axes.
+// The direction n of a point of a sprite: out of the plume, and out of the sprite. plume: Particle::outward. corner:
+// the point's place in the sprite, −1…1 along the picture's axes.
 vec3 outward_direction(uint plume, vec2 corner) {
   vec3 outward = (vec3(uvec3(plume, plume >> 10u, plume >> 20u) & 1023u) - 512.0) / 511.0;
   return outward + 0.22 * (corner.x * frame.right + corner.y * frame.up);

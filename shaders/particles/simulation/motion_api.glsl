@@ -79,7 +79,8 @@ vec3 outward_of_plume(ParticleEmitterRow e, vec3 off, vec3 pace, float way, floa
   float places = e.birth_wide2 + e.way_wide2 * way * way + e.drift_wide2 * age * age;
   float inverse_wide2 = 1.0 / (places + e.size_wide2 * growth * growth);
   // A plume no longer than it is wide is a cloud, whose middle is a point.
-  float inverse_pace2 = 1.0 / (dot(pace, pace) + places * e.pace2_of_places + e.pace2_of_way * way * way + e.least_pace2);
+  float inverse_pace2 =
+      1.0 / (dot(pace, pace) + places * e.pace2_of_places + e.pace2_of_way * way * way + e.least_pace2);
   vec3 across = off - pace * (dot(off, pace) * inverse_pace2);
   float hidden = e.hiding * growth * growth * opacity;
   float half_depth2 = (hidden * inverse_pace2) * (hidden * inverse_wide2);

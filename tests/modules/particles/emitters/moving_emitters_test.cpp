@@ -144,7 +144,8 @@ TEST(MovingEmitters, that_are_teleported_or_moved_while_the_clock_stands_have_no
   for (const bool stands : {false, true}) {
     MovingWorld hosted;
     const Entity root = hosted.world.create(WorldTransform{});
-    const Entity entity = hosted.world.create(WorldTransform{}, LocalTransform{}, Parent{root, 1}, MovingWorld::values());
+    const Entity entity =
+        hosted.world.create(WorldTransform{}, LocalTransform{}, Parent{root, 1}, MovingWorld::values());
     static_cast<void>(entity);
     for (int i = 0; i < 60; ++i) static_cast<void>(hosted.frame(i / 60.0));
     hosted.put(root, {30.0, 0.0, 0.0});

@@ -28,7 +28,8 @@ dvec3 birth_at(const EmitterPath& path, double time_s) {
 /// Notes the poses of a way at 60 Hz.
 EmitterPath played(const std::function<dmat4(double)>& way, double from, double to, double lifetime_s,
                    EmitterPath path = {}) {
-  for (int i = 0; from + i / 60.0 < to + 1e-9; ++i) note_pose(path, from + i / 60.0, way(from + i / 60.0), false, lifetime_s);
+  for (int i = 0; from + i / 60.0 < to + 1e-9; ++i)
+    note_pose(path, from + i / 60.0, way(from + i / 60.0), false, lifetime_s);
   return path;
 }
 
@@ -87,8 +88,7 @@ TEST(NotedPath, does_not_change_while_the_clock_stands) {
 TEST(NotedPath, forgets_later_poses_when_the_clock_goes_back) {
   EmitterPath path = played(circle, 0.0, 1.0, 1.0), longer = played(circle, 0.0, 1.5, 1.0);
   note_pose(longer, 1.0, circle(1.0), false, 1.0);
-  for (double t = 0.5; t <= 1.0; t += 0.01)
-    EXPECT_LT(glm::length(birth_at(path, t) - birth_at(longer, t)), 1e-12) << t;
+  for (double t = 0.5; t <= 1.0; t += 0.01) EXPECT_LT(glm::length(birth_at(path, t) - birth_at(longer, t)), 1e-12) << t;
   note_pose(longer, -7.0, at(3.0), false, 1.0);
   EXPECT_EQ(longer.size(), 1u) << "before all poses: it has always been there";
   EXPECT_EQ(longer[0].matrix, at(3.0));

@@ -80,7 +80,8 @@ class PlumeSides : public KernelTest {
       const double life = static_cast<double>(values.lifetime_s);
       for (Ball& ball : balls) {
         ball.off = ball.at - middle(ball.age);
-        ball.along = glm::normalize(middle(std::min(ball.age + window, life)) - middle(std::max(ball.age - window, 0.0)));
+        ball.along =
+            glm::normalize(middle(std::min(ball.age + window, life)) - middle(std::max(ball.age - window, 0.0)));
       }
       all.push_back(std::move(balls));
     }

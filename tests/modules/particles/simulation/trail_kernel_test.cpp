@@ -33,7 +33,8 @@ ParticleEmitter trail_of(float lifetime_s) {
 using Way = std::function<dmat4(double)>;
 
 dmat4 flight(double t) {
-  dmat4 m = glm::translate(dmat4(1.0), dvec3(1.5 * std::cos(1.3 * t), 0.4 * std::sin(2.0 * t), 1.5 * std::sin(1.3 * t)));
+  dmat4 m =
+      glm::translate(dmat4(1.0), dvec3(1.5 * std::cos(1.3 * t), 0.4 * std::sin(2.0 * t), 1.5 * std::sin(1.3 * t)));
   m = glm::rotate(m, 0.9 * t, glm::normalize(dvec3(0.3, 0.2, 1.0)));
   return glm::scale(m, dvec3(1.0 + 0.4 * std::sin(t), 1.0, 1.0 + 0.3 * std::cos(t)));
 }
@@ -68,7 +69,8 @@ class ParticleTrail : public KernelTest {
   }
   static EmitterPath played(const Way& way, double lifetime_s, double hertz) {
     EmitterPath path;
-    for (double t = kNow - 2.0 * lifetime_s; t < kNow + 1e-9; t += 1.0 / hertz) note_pose(path, t, way(t), false, lifetime_s);
+    for (double t = kNow - 2.0 * lifetime_s; t < kNow + 1e-9; t += 1.0 / hertz)
+      note_pose(path, t, way(t), false, lifetime_s);
     return path;
   }
 };
@@ -82,7 +84,8 @@ TEST_F(ParticleTrail, is_born_where_the_emitter_was) {
     const auto bound = [&](double spacing) { return 8.0 * spacing * spacing / 8.0 + 1e-3; };
     EXPECT_LT(worst(values, flight, sampled_path(flight, kNow, life_s, 0.05)), bound(2.0 * life_s / kKeptPoses));
     for (const double hertz : {60.0, 24.0})
-      EXPECT_LT(worst(values, flight, played(flight, life_s, hertz)), bound(1.0 / hertz + life_s / kKeptPoses)) << hertz;
+      EXPECT_LT(worst(values, flight, played(flight, life_s, hertz)), bound(1.0 / hertz + life_s / kKeptPoses))
+          << hertz;
   }
   // Without the path the whole plume moves as a block.
   const auto still = [](double) { return flight(kNow); };
