@@ -61,7 +61,8 @@ struct ParticleLightMap {
 };
 
 /// The maps of a world; a world resource. An emitter without a map, or that is not where it was when its map was made,
-/// is lit by the four strongest of all lights, unshadowed, and by the sky and the ground.
+/// takes the smallest other map whose box holds all of its bounds. Without one it is lit by the four strongest of all
+/// lights where it is now, unshadowed, and by the sky and the ground.
 struct ParticleLightMaps {
   std::vector<ParticleLightMap> maps;  ///< ascending by Entity::index of the emitters, at most one of each
   std::uint64_t version = 0;           ///< raise it with each change; the maps are uploaded again

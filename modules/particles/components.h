@@ -10,7 +10,8 @@ namespace gloam {
 
 enum class EmitterKind : std::uint8_t { none, fog, dust, smoke, fire };
 
-/// Emits particles from a box around the node.
+/// Emits particles from a box around the node. Each is born where the node was at that time, from animations or as the
+/// world has noted it (emitters/path.h). A host that puts the node elsewhere at once lists it in Teleports.
 struct ParticleEmitter {
   EmitterKind kind = EmitterKind::none;
   float rate = 20.0f;  ///< 1/s
