@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdint>
+#include <optional>
+#include <utility>
 
 #include "modules/particles/emitters/births.h"
 

@@ -19,10 +19,7 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <functional>
-#include <optional>
-#include <span>
 #include <unordered_map>
 #include <vector>
 
