@@ -154,8 +154,8 @@ TEST_F(PlumeSides, are_lit_as_marched_for_jets_in_six_directions_and_slanted_one
                           {"wide jet", smoke(300.0f, 2.0f, 0.25f, 3.0f, 0.35f, 0.6f)}};
   for (const Plume& plume : plumes) {
     std::vector<dvec3> jets(std::begin(kSix), std::end(kSix));
-    jets.push_back(dvec3(0.6, 0.5, -0.7));  // not looked at while constants were chosen, as the next
-    jets.push_back(dvec3(-0.3, -0.6, 0.4));
+    jets.push_back(dvec3(0.6, 0.5, -0.7));
+    jets.push_back(dvec3(-0.3, -0.6, 0.4));  // not looked at while constants were chosen
     for (const dvec3& jet : jets) {
       const auto balls = moments(plume.values, pose_along(jet), 12);
       for (const dvec3& lamp : across(jet))
