@@ -69,7 +69,8 @@ TEST_F(GrassSimulationHard, segments_of_no_length_keep_it) {
     type.stem[9] = type.stem[7];
     type.stem[15] = type.stem[14];
   }
-  expect_sound_frames(input, 30, 4);
+  // Rounding decides the direction of a segment of no length.
+  expect_sound_frames(input, 30, 4, 5e-5, 0.9);
 }
 
 // Hard case: grass.knots_one_point
