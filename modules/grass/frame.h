@@ -63,7 +63,7 @@ struct MasterList {
 struct DrawnBlades {
   BufferRef poses;    ///< shaders::GrassPose, of the live blades in sorted order
   BufferRef casting;  ///< shaders::GrassCasting
-  BufferRef casters;  ///< places of its blades among the poses
+  BufferRef casters;  ///< its blades: places among the poses, and flags
   BufferRef draws;    ///< shaders::GrassDraws
   BufferRef knots;    ///< GrassStore::knots
   BufferRef indices;  ///< of all draw classes

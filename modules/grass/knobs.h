@@ -80,7 +80,7 @@ inline constexpr ChoiceKnob<std::uint32_t> kGrassCasters{
     .name = "grass.casters",
     .meaning =
         "blades that cast shadows among those within grass.cast_distance: 1:4 means a quarter of them, four times "
-        "as wide; the same ones in every frame",
+        "as wide; the same ones in every frame. Where few blades grow, all cast",
     .choices = {{"1:1", 1}, {"1:2", 2}, {"1:4", 4}, {"1:8", 8}},
     .default_value = 4,
     .exact = 1,

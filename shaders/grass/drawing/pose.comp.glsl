@@ -21,7 +21,9 @@ layout(set = 0, binding = 7, scalar) readonly buffer PreviousKnots { vec4 previo
 layout(set = 0, binding = 9, scalar) readonly buffer Stamps { uint stamps[]; };
 layout(set = 0, binding = 8, scalar) writeonly buffer Poses { GrassPose poses[]; };
 layout(set = 0, binding = 10, scalar) buffer Casting { GrassCasting casting; };
-layout(set = 0, binding = 11, scalar) writeonly buffer Casters { uint casters[]; };  // places among the poses
+layout(set = 0, binding = 11, scalar) writeonly buffer Casters {
+  uint casters[];
+};  // places among the poses, GLOAM_GRASS_NOT_WIDER
 
 // Rotation and scale from the knots of the master to those of the blade, relative to their roots.
 mat3 turn_of(GrassStem master, GrassStem blade, uint slot, uint first_knot, uint master_type) {
@@ -66,10 +68,11 @@ void main() {
   uint threshold = (slot * 40503u + begin) & 0xFFFFu;
   pose.layer = grass_layer(packed_blade) | threshold << 16;
   poses[i] = pose;
-  // The same blades cast in every frame, whatever their order.
-  if (i < draws.cast_count && threshold * lod.cast_every < 0x10000u) {
+  // The same blades cast in every frame, whatever their order. Of a few blades each one's shadow is seen: all cast.
+  bool few = row.blades < GLOAM_GRASS_FEW_BLADES;
+  if (i < draws.cast_count && (few || threshold * lod.cast_every < 0x10000u)) {
     uint place = atomicAdd(casting.count, 1u);
-    casters[place] = i;
+    casters[place] = i | (few ? GLOAM_GRASS_NOT_WIDER : 0u);
     atomicMax(casting.draw.instances, place / GLOAM_GRASS_DRAW_BLADES + 1u);
   }
 }

@@ -5,10 +5,12 @@
 
 #include "shaders/common/prelude.h"
 
-#define GLOAM_GRASS_CULLED 255u      // key of blades that are not drawn
-#define GLOAM_GRASS_CLASSES 4        // draws of a view: near blades have more segments
-#define GLOAM_GRASS_CAST_CLASS 2     // draw class whose segments blades in shadow maps have
-#define GLOAM_GRASS_DRAW_BLADES 32u  // blades of one instance of a draw
+#define GLOAM_GRASS_CULLED 255u            // key of blades that are not drawn
+#define GLOAM_GRASS_CLASSES 4              // draws of a view: near blades have more segments
+#define GLOAM_GRASS_CAST_CLASS 2           // draw class whose segments blades in shadow maps have
+#define GLOAM_GRASS_FEW_BLADES 64u         // patches with fewer blades cast the shadows of all, as wide as they are
+#define GLOAM_GRASS_NOT_WIDER 0x80000000u  // flag of a listed caster: it is as wide as the blade
+#define GLOAM_GRASS_DRAW_BLADES 32u        // blades of one instance of a draw
 
 GLOAM_SHARED_BEGIN
 
@@ -53,7 +55,7 @@ struct GrassDraws {
   float units_per_metre;
 };
 
-/// Blades that cast shadows: begun by live.comp, listed by pose.comp in any order.
+/// Blades that cast shadows: begun by live.comp, listed by pose.comp in any order, as places among the poses and flags.
 struct GrassCasting {
   GrassDraw draw;
   uint count;

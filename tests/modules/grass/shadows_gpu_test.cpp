@@ -100,6 +100,34 @@ TEST_F(GrassShadows, fall_on_the_ground_behind_the_blade_within_the_cast_distanc
   EXPECT_GT(change(stage, over(8.0), "12").darker, 20u);
 }
 
+// Light of the ground and the blades of a dense lawn in the sun, seen from above: with the shadows of all blades, with
+// those of a quarter of them, which are four times as wide, and with none.
+TEST_F(GrassShadows, of_a_quarter_of_a_dense_lawn_take_as_much_light_as_those_of_all) {
+  GrassStage stage({.shadows = true});
+  GrassSurface values;
+  values.density = 900.0f;
+  values.width_m = 0.006f;
+  values.height_m = vec2(0.25f, 0.05f);
+  stage.lawn(3.0f, 2700, dvec3(0.0), values);
+  stage.sun(glm::normalize(dvec3(0.5, -1.0, 0.2)));
+  const ViewSettings view = look_at({0.0, 2.5, 1.5}, {0.0, 0.0, 0.0}, 128, 96);
+  const auto light = [&](const char* distance, const char* casters) {
+    stage.set("grass.cast_distance", distance);
+    stage.set("grass.casters", casters);
+    stage.draw(view);
+    double sum = 0.0;
+    const LinearPicture picture = stage.linear();
+    for (std::size_t i = 0; i < picture.rgba.size(); i += 4) sum += double{picture.rgba[i + 1]};
+    return sum;
+  };
+  const double none = light("0", "1:1"), all = light("6", "1:1");
+  EXPECT_LT(all, 0.985 * none);
+  for (const char* casters : {"1:2", "1:4"}) {
+    const double some = light("6", casters);
+    EXPECT_NEAR((none - some) / (none - all), 1.0, 0.12) << casters << ": " << none << ", " << all << ", " << some;
+  }
+}
+
 TEST_F(GrassShadows, of_a_lamp_fall_behind_the_blade) {
   GrassStage stage({.shadows = true});
   plant(stage);

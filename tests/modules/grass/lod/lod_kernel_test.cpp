@@ -59,6 +59,7 @@ class GrassDetail : public KernelTest {
   struct Arguments {
     shaders::GrassDraws draws{};
     shaders::GrassDispatch dispatch{};
+    shaders::GrassCasting casting{};
   };
   [[nodiscard]] static Arguments arguments(const shaders::GrassLod& lod, const std::vector<std::uint32_t>& bins) {
     Kernel kernel(device(), shaders::grass::live_comp);
@@ -66,8 +67,10 @@ class GrassDetail : public KernelTest {
     kernel.input(1, bins);
     kernel.output(2, sizeof(shaders::GrassDraws));
     kernel.output(3, sizeof(shaders::GrassDispatch));
+    kernel.output(4, sizeof(shaders::GrassCasting));
     kernel.run(1);
-    return {kernel.read<shaders::GrassDraws>(2)[0], kernel.read<shaders::GrassDispatch>(3)[0]};
+    return {kernel.read<shaders::GrassDraws>(2)[0], kernel.read<shaders::GrassDispatch>(3)[0],
+            kernel.read<shaders::GrassCasting>(4)[0]};
   }
   struct Listed {
     std::vector<shaders::GrassMaster> masters;
@@ -201,7 +204,7 @@ TEST_F(GrassDetail, live_blades_are_those_up_to_the_threshold_and_the_classes_di
     std::ranges::sort(ends);
     lod.class_keys = uvec4(ends[0], ends[1], ends[2], 254);
     lod.cast_key = round % 3 == 0 ? GLOAM_GRASS_CULLED : static_cast<std::uint32_t>(random() % 255);
-    const auto [draws, dispatch] = arguments(lod, bins);
+    const auto [draws, dispatch, cast] = arguments(lod, bins);
     const std::uint32_t live = bins[lod.threshold + 1];
     ASSERT_EQ(draws.live, live);
     EXPECT_EQ(draws.blade_groups, uvec3((live + 63) / 64, 1, 1));
@@ -220,7 +223,9 @@ TEST_F(GrassDetail, live_blades_are_those_up_to_the_threshold_and_the_classes_di
     EXPECT_EQ(first, live);
     const std::uint32_t casting = lod.cast_key == GLOAM_GRASS_CULLED ? 0 : std::min(live, bins[lod.cast_key + 1]);
     EXPECT_EQ(draws.cast_count, casting);
-    EXPECT_EQ(draws.cast_draw.instances, (casting + GLOAM_GRASS_DRAW_BLADES - 1) / GLOAM_GRASS_DRAW_BLADES);
+    EXPECT_EQ(cast.count, 0u);  // no blade is listed yet
+    EXPECT_EQ(cast.draw.instances, 0u);
+    EXPECT_EQ(cast.draw.indices, 6 * lod.class_segments[GLOAM_GRASS_CAST_CLASS] * GLOAM_GRASS_DRAW_BLADES);
     EXPECT_EQ(dispatch.masters, 0u);
     EXPECT_EQ(dispatch.groups, uvec3(0, 1, 1));
   }
