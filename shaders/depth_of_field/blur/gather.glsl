@@ -32,7 +32,8 @@ vec4 fetch_layer(ivec2 texel) { return texelFetch(layer_image, corner + inside_l
 int place_of(ivec2 texel) { return (texel.y - kept_first.y) * kept_side + texel.x - kept_first.x; }
 vec4 layer_at(ivec2 texel) { return kKeeps != 0 ? kept(place_of(texel)) : fetch_layer(texel); }
 
-// Texels of a row that lie within the square of a distance.
+// Texels of a row that lie within the square of a distance. Loops over them test at their end: a processor goes once
+// more through a loop that tests first.
 int row_end(int texels, int y) { return int(sqrt(float(texels - y * y) + 0.25)); }
 
 // What lies behind the texel's surface, or in the same plane, counts as far as the texel's own circle reaches. What
@@ -40,8 +41,8 @@ int row_end(int texels, int y) { return int(sqrt(float(texels - y * y) + 0.25));
 vec4 blurred_far(ivec2 texel, vec4 own, int taps, int texels) {
   vec4 front = vec4(0.0), back = vec4(0.0);
   for (int y = -taps; y <= taps; ++y) {
-    int end = row_end(texels, y);
-    for (int x = -end; x <= end; ++x) {
+    int end = row_end(texels, y), x = -end;
+    do {
       vec4 other = layer_at(texel + ivec2(x, y));
       float reach = min(other.a, own.a);
       float cover = other.a > 0.0 ? aperture_cover(aperture_distance(vec2(x, y)), reach) : 0.0;
@@ -51,7 +52,7 @@ vec4 blurred_far(ivec2 texel, vec4 own, int taps, int texels) {
       vec4 counted = cover > 0.0 ? weight * vec4(other.rgb, 1.0) : vec4(0.0);
       front += before ? counted : vec4(0.0);
       back += before ? vec4(0.0) : counted;
-    }
+    } while (++x <= end);
   }
   front /= max(front.a, 1.0);
   vec3 light = front.rgb + (1.0 - front.a) * back.rgb / max(back.a, 1e-9);
@@ -62,12 +63,12 @@ vec4 blurred_far(ivec2 texel, vec4 own, int taps, int texels) {
 vec4 filled_far(ivec2 texel, int taps, int texels) {
   vec4 fill = vec4(0.0);
   for (int y = -taps; y <= taps; ++y) {
-    int end = row_end(texels, y);
-    for (int x = -end; x <= end; ++x) {
+    int end = row_end(texels, y), x = -end;
+    do {
       vec4 other = layer_at(texel + ivec2(x, y));
       float squared = float(x * x + y * y) + 0.25;
       fill += other.a > kNothing ? vec4(other.rgb, 1.0) / (squared * squared) : vec4(0.0);
-    }
+    } while (++x <= end);
   }
   return fill.a > 0.0 ? vec4(fill.rgb / fill.a, 1.0) * kFilledWeight : vec4(0.0);
 }
@@ -85,15 +86,15 @@ vec4 near_texel(ivec2 texel, int taps, int texels) {
   vec4 sum = vec4(0.0);
   float radii = 0.0;
   for (int y = -taps; y <= taps; ++y) {
-    int end = row_end(texels, y);
-    for (int x = -end; x <= end; ++x) {
+    int end = row_end(texels, y), x = -end;
+    do {
       vec4 other = layer_at(texel + ivec2(x, y));
       float radius = near_radius(other.a);
       float weight = aperture_cover(aperture_distance(vec2(x, y)), radius) / aperture_area(radius);
       weight *= near_share(other.a) > 0.0 ? 1.0 : 0.0;
       sum += weight * vec4(other.rgb, near_share(other.a));
       radii += weight * near_share(other.a) * radius;
-    }
+    } while (++x <= end);
   }
   // Few texels do not add up to the area of a disc.
   float radius = max(radii / max(sum.a, 1e-9), 0.5);

@@ -35,7 +35,7 @@ int level;
 LevelRange range;
 float
     least;  // circles behind the focus that are much smaller than a texel count as in focus: they would spread too far
-int has_near, has_sprites;  // 1 or 0: loops in place of conditions, because lavapipe runs both sides of a branch
+bool has_near, has_sprites;
 vec3 far_light, focus_light;
 float far_weight, far_circle, far_bright, focus_weight, near_weight, near_circle;
 vec4 near;
@@ -51,7 +51,7 @@ void add(ivec2 pixel, float depth) {
   float counts = is_finite(light) ? 1.0 : 0.0;
   float coc = circle_of_confusion(depth), circle = abs(coc);
   light = counts > 0.0 ? light : vec3(0.0);
-  for (int i = 0; i < has_sprites; ++i) light *= 1.0 - sprite_share(light, coc, around);
+  if (has_sprites) light *= 1.0 - sprite_share(light, coc, around);
   // Light counts by its area. Circles that are hardly blurred count less.
   float far = coc >= least ? counts * min(coc, 1.0) : 0.0;
   far_light += far * light;
@@ -63,7 +63,7 @@ void add(ivec2 pixel, float depth) {
   float focused = coc > -kInFocus && coc < least ? counts : 0.0;
   focus_light += focused * light;
   focus_weight += focused;
-  for (int i = 0; i < has_near; ++i) {
+  if (has_near) {
     float before = coc <= -kInFocus ? 1.0 : 0.0,
           part = counts * before * level_share(range, circle / GLOAM_DOF_NEAR_FINER);
     near += part * vec4(light, 1.0);
@@ -110,18 +110,21 @@ void main() {
   level = kFine != 0u ? 0 : tile.level;
   range = level_range(level);
   least = level == dof.first_level ? kInFocus : max(0.5 * dof.from[max(level - 1, 0)], kInFocus);
-  has_near = (wanted & GLOAM_DOF_HAS_NEAR) != 0 ? 1 : 0;
-  has_sprites = around >= 0.0 ? 1 : 0;
+  has_near = (wanted & GLOAM_DOF_HAS_NEAR) != 0;
+  has_sprites = around >= 0.0;
   ivec2 first = tile.place * GLOAM_DOF_TILE;
   // Tiles that only lie beside circles before the focus.
-  int reads = wanted == GLOAM_DOF_WANTS_NEAR ? 0 : 1;
+  bool reads = wanted != GLOAM_DOF_WANTS_NEAR;
   int first_item = int(gl_LocalInvocationIndex);
   if (kFine != 0u) {
     for (int block = first_item; block < 64; block += kThreads) {
       ivec2 pixel = first + 2 * ivec2(block & 7, block >> 3);
-      for (int i = 0; i < reads; ++i) add_block(pixel, true, wanted);
-      clear();
-      for (int i = 0; i < 4 * (1 - reads); ++i) store(pixel + ivec2(i & 1, i >> 1), 1.0, wanted);
+      if (reads) {
+        add_block(pixel, true, wanted);
+      } else {
+        clear();
+        for (int i = 0; i < 4; ++i) store(pixel + ivec2(i & 1, i >> 1), 1.0, wanted);
+      }
     }
     return;
   }
@@ -129,8 +132,11 @@ void main() {
   for (int number = first_item; number < side * side; number += kThreads) {
     ivec2 texel = ivec2(number & (side - 1), number >> (4 - level));
     clear();
-    for (int y = 0; y < scale * reads; y += 2)
-      for (int x = 0; x < scale; x += 2) add_block(first + texel * scale + ivec2(x, y), false, wanted);
+    // Tested at the end: a processor goes once more through a loop that tests first.
+    int blocks = reads ? scale * scale / 4 : 0, block = 0;
+    if (reads) do
+        add_block(first + texel * scale + 2 * ivec2(block & (scale / 2 - 1), block >> (level - 1)), false, wanted);
+      while (++block < blocks);
     store(tile.place * side + texel, float(scale * scale), wanted);
   }
 }

@@ -32,7 +32,7 @@ layout(set = 0, binding = 8, rgba16f) uniform image2D lit_image;
 DofTileReach reach;
 uint first_sprite, sprite_count;
 float around;
-int has_sprites;
+bool has_sprites;
 
 // Four pixels: 0 and 1 above, 2 and 3 below.
 struct Quad {
@@ -91,13 +91,15 @@ void add_far(inout Quad sum, Quad found, int level, vec4 circles) {
   add_far(sum.p3, found.p3, range, whole, circles.w);
 }
 
-// Loops in place of conditions: lavapipe runs both sides of a branch.
 Quad far_light(ivec2 pixel, vec4 circles) {
   Quad sum = no_quad();
-  for (uint i = 0u; i < (reach.far & 1u); ++i) add_far(sum, quad_of_pixels(far_image, pixel), 0, circles);
-  for (uint i = 0u; i < (reach.far >> 1 & 1u); ++i) add_far(sum, quad_of_level_1(far_image, pixel), 1, circles);
-  for (uint left = reach.far & ~3u; left != 0u; left &= left - 1u)
-    add_far(sum, quad_of_level(far_image, pixel, findLSB(left)), findLSB(left), circles);
+  if ((reach.far & 1u) != 0u) add_far(sum, quad_of_pixels(far_image, pixel), 0, circles);
+  if ((reach.far & 2u) != 0u) add_far(sum, quad_of_level_1(far_image, pixel), 1, circles);
+  uint left = reach.far & ~3u;
+  if (left != 0u) do {
+      add_far(sum, quad_of_level(far_image, pixel, findLSB(left)), findLSB(left), circles);
+      left &= left - 1u;
+    } while (left != 0u);  // tested at the end: a processor goes once more through a loop that tests first
   return sum;
 }
 
@@ -110,10 +112,13 @@ void add_near(inout Quad sum, Quad found) {
 Quad near_light(ivec2 pixel) {
   Quad sum = no_quad();
   if (kNear == 0u) return sum;
-  for (uint i = 0u; i < (reach.near & 1u); ++i) add_near(sum, quad_of_pixels(near_image, pixel));
-  for (uint i = 0u; i < (reach.near >> 1 & 1u); ++i) add_near(sum, quad_of_level_1(near_image, pixel));
-  for (uint left = reach.near & ~3u; left != 0u; left &= left - 1u)
-    add_near(sum, quad_of_level(near_image, pixel, findLSB(left)));
+  if ((reach.near & 1u) != 0u) add_near(sum, quad_of_pixels(near_image, pixel));
+  if ((reach.near & 2u) != 0u) add_near(sum, quad_of_level_1(near_image, pixel));
+  uint left = reach.near & ~3u;
+  if (left != 0u) do {
+      add_near(sum, quad_of_level(near_image, pixel, findLSB(left)));
+      left &= left - 1u;
+    } while (left != 0u);
   return sum;
 }
 
@@ -127,7 +132,9 @@ void add_sprite(DofSprite sprite, vec2 apart, float radius, float share, float c
   near.rgb += sprite.coc > 0.0 ? vec3(0.0) : seen * sprite.light;
 }
 void add_sprites(ivec2 pixel, vec4 coc, inout Quad far, inout Quad near) {
-  for (uint i = 0u; i < sprite_count; ++i) {
+  if (sprite_count == 0u) return;
+  uint i = 0u;
+  do {
     DofSprite sprite = sprites[reaching[first_sprite + i]];
     vec2 apart = vec2(pixel) - sprite.place;
     float radius = kernel_radius(abs(sprite.coc), 0), share = 1.0 / aperture_area(radius);
@@ -135,7 +142,7 @@ void add_sprites(ivec2 pixel, vec4 coc, inout Quad far, inout Quad near) {
     add_sprite(sprite, apart + vec2(1.0, 0.0), radius, share, coc.y, far.p1, near.p1);
     add_sprite(sprite, apart + vec2(0.0, 1.0), radius, share, coc.z, far.p2, near.p2);
     add_sprite(sprite, apart + vec2(1.0, 1.0), radius, share, coc.w, far.p3, near.p3);
-  }
+  } while (++i < sprite_count);
 }
 
 void compose(ivec2 pixel, float coc, vec4 far, vec4 near, vec3 discs, vec3 near_discs) {
@@ -143,7 +150,7 @@ void compose(ivec2 pixel, float coc, vec4 far, vec4 near, vec3 discs, vec3 near_
   vec4 light = imageLoad(lit_image, pixel);
   bool counts = is_finite(light.rgb), blurred = abs(coc) >= kInFocus;
   vec3 sharp = counts ? light.rgb : vec3(0.0);
-  for (int i = 0; i < has_sprites; ++i) sharp *= 1.0 - sprite_share(sharp, coc, around);
+  if (has_sprites) sharp *= 1.0 - sprite_share(sharp, coc, around);
   // Light that is not finite does not stay in what is blurred. If there is no other light near, it becomes black.
   if (!counts && far.a > 0.0) far /= far.a;
   near /= max(near.a, 1.0);
@@ -175,7 +182,7 @@ void main() {
   uint index = uint(tile.place.y) * dof.tiles.x + uint(tile.place.x);
   reach = reached[index];
   around = tile_sprites[index].surroundings;
-  has_sprites = around >= 0.0 ? 1 : 0;
+  has_sprites = around >= 0.0;
   first_sprite = index * uint(GLOAM_DOF_REACHING_SPRITES + 1) + 1u;
   sprite_count = reaching[first_sprite - 1u];
   int quad = int(gl_LocalInvocationIndex);
