@@ -63,7 +63,7 @@ MUTATIONS = (
      "kMostHitCentimetres) + 0.5)", "kMostHitCentimetres))"),
     ("halved gravity", "kernel.blades", "grass/simulation/solver.glsl", "vec3(0.0, -9.81, 0.0)", "vec3(0.0, -4.905, 0.0)"),
     ("turbulence of another order", "kernel.particles", "particles/simulation/motion_api.glsl",
-     "0.5 * past / e.swirl_step_s", "past / e.swirl_step_s"),
+     "half_per_step = 0.5 / e.swirl_step_s", "half_per_step = 1.0 / e.swirl_step_s"),
     ("a wider disc", "kernel.lens_blur", "depth_of_field/kernel_api.glsl", "clamp(radius + 0.5 - distance",
      "clamp(radius + 0.8 - distance"),
     ("a lens that loses light", "kernel.bokeh_energy", "depth_of_field/kernel_api.glsl", "? 3.14159265 : 3.46410162",
