@@ -17,9 +17,11 @@ struct GrassSurface {
   std::uint32_t seed = 1;
   vec2 height_m = vec2(0.3f, 0.06f);  ///< mean, deviation
   float width_m = 0.006f;
-  float damping = 1.5f;          ///< of the blades' swings, 1/s: they fall to 1/e in 1 s over damping
-  float max_distance_m = 40.0f;  ///< quantisation range of the LOD
-  std::uint32_t types = 0;       ///< blade file in SceneStrings; 0: the built-in five types
+  float damping = 1.5f;              ///< of the blades' swings, 1/s: they fall to 1/e in 1 s over damping
+  float max_distance_m = 40.0f;      ///< quantisation range of the LOD
+  std::uint32_t types = 0;           ///< blade file in SceneStrings; 0: the built-in five types
+  std::uint32_t texture = 0;         ///< image of the blades in SceneStrings; 0: procedural colours
+  std::uint32_t texture_layers = 0;  ///< layers side by side in the image, at most 16; 0: blade_layers() decides
 };
 
 enum class ColliderShape : std::uint8_t { none, sphere, capsule, box };
@@ -51,7 +53,7 @@ struct GrassBlade {
   std::uint32_t slot = 0;    ///< 256 · index of the patch + index in the patch; its place in GPU buffers
   std::uint32_t master = 0;  ///< slot of the blade whose knots it copies, in the same patch; a master's own slot
   std::uint16_t type = 0;    ///< of the patch's blade types, < 16
-  std::uint16_t layer = 0;   ///< texture layer, < 16
+  std::uint16_t layer = 0;   ///< texture layer, < 16; modulo the layers of the surface's image
 };
 
 /// Tags that keep masters and slaves in archetypes of their own.

@@ -39,6 +39,7 @@ struct GrassInputs {
   gpu::Binding::BufferRange lod_range;   ///< `lod`
   gpu::Binding::BufferRange patch_rows;  ///< of StoredPatches::patches
   gpu::Binding::BufferRange types;
+  ImageRef textures;  ///< layers of the blades' images; null: no surface of the world has any
   gpu::Binding::BufferRange colliders;
   bool has_colliders = false;  ///< near any of the patches
 };

@@ -14,6 +14,7 @@
 #include "engine/render/worlds/world_id.h"
 #include "engine/scene/units.h"
 #include "modules/grass/drawing/draw_blades_passes.h"
+#include "modules/grass/drawing/textures.h"
 #include "modules/grass/lod/detail.h"
 #include "modules/grass/lod/sort_blades_passes.h"
 #include "modules/grass/simulation/colliders.h"
@@ -52,6 +53,25 @@ dvec3 wind_origin(const World& world) {
 
 vec4 shader_quaternion(const dquat& q) { return vec4(dvec4(q.x, q.y, q.z, q.w)); }
 
+/// The layers of the surfaces of patches; neighbours mostly have one surface.
+class PatchTextures {
+ public:
+  explicit PatchTextures(const World& world) : world_(world) {}
+  /// GrassPatchRow::texture.
+  [[nodiscard]] std::uint32_t word(Entity surface) {
+    if (surface == surface_) return word_;
+    surface_ = surface;
+    const GrassSurface* found = world_.alive(surface) ? world_.try_get<GrassSurface>(surface) : nullptr;
+    word_ = found == nullptr ? 0 : layers_of(world_.resource<BladeTextures>(), *found).word();
+    return word_;
+  }
+
+ private:
+  const World& world_;
+  Entity surface_ = kNoEntity;
+  std::uint32_t word_ = 0;
+};
+
 /// Uploads the rows of the view's patches and of the colliders near them.
 GrassInputs upload_patches(FrameBuilder& frame, const GrassField& field, const StoredPatches& stored) {
   std::vector<shaders::GrassPatchRow> rows;
@@ -60,6 +80,7 @@ GrassInputs upload_patches(FrameBuilder& frame, const GrassField& field, const S
   const double metres = metres_per_unit(frame.world());
   const dvec3 eye = frame.view().position * metres;
   const dvec3 wind_at = wind_origin(frame.world()) * metres;
+  PatchTextures textures(frame.world());
   for (const ResidentPatch& resident : stored.patches) {
     const GrassPatch& patch = field.patches[resident.patch];
     shaders::GrassPatchRow row{};
@@ -78,6 +99,7 @@ GrassInputs upload_patches(FrameBuilder& frame, const GrassField& field, const S
     row.first_collider = static_cast<std::uint32_t>(colliders.size());
     row.colliders = colliders_near(patch, placed, colliders);
     row.max_distance_m = patch.max_distance_m;
+    row.texture = textures.word(patch.surface);
     rows.push_back(row);
   }
   GrassInputs inputs;
@@ -151,6 +173,8 @@ void add_grass_passes(FrameBuilder& frame, GrassWorlds& worlds) {
   GrassBladeRows& rows = *world.resource<GrassWorld>().rows;
   if (pack_changed_rows(world, field, frame.services().executor, rows))
     for (const std::string& note : field.notes) worlds.notes_log.warning(frame.services().log, note);
+  for (const std::string& fault : world.resource<BladeTextures>().faults)
+    worlds.notes_log.warning(frame.services().log, fault);
 
   const GrassStoreInput input{.patches = field.patches,
                               .plantings = field.plantings,
@@ -162,6 +186,8 @@ void add_grass_passes(FrameBuilder& frame, GrassWorlds& worlds) {
   StoredPatches stored = add_store_passes(frame, input, visible.patches, worlds.stores.of_frame(frame, number));
   if (!frame.status().ok() || stored.patches.empty()) return;
   GrassInputs inputs = upload_patches(frame, field, stored);
+  inputs.textures = add_blade_texture_upload(frame, worlds.staging);
+  if (!frame.status().ok()) return;
   inputs.threads = simulation_threads(knobs.threads, frame.services().device.info().threads_in_turn);
   inputs.group_masters = simulation_group_masters(inputs.threads);
   inputs.steps = steps_of(world, knobs.iterations);
@@ -181,7 +207,7 @@ void add_grass_passes(FrameBuilder& frame, GrassWorlds& worlds) {
   **board = GrassFrame{std::move(stored), inputs.lod, inputs.steps, sorted, masters.dispatch, drawn};
 }
 
-void list_grass_pipelines(const GrassKnobs& knobs, bool threads_in_turn, PipelineList& list) {
+void list_grass_pipelines(const GrassKnobs& knobs, bool threads_in_turn, bool textured, PipelineList& list) {
   const auto add = [&](const ComputeProgram& program) { list.push_back(pipeline_desc(program, "grass")); };
   add(grass_keys_program());
   add(grass_live_program());
@@ -190,7 +216,7 @@ void list_grass_pipelines(const GrassKnobs& knobs, bool threads_in_turn, Pipelin
   for (const bool colliders : {false, true}) add(grass_simulation_program(threads, colliders));
   add(grass_pose_program());
   for (const ComputeProgram& program : radix_sort_programs(threads_in_turn, true)) add(program);
-  list_blade_pipelines(false, false, list);
+  list_blade_pipelines({.textured = textured}, list);
   if (knobs.cast_distance_m > 0.0f) list.push_back(caster_pipeline_desc(blade_caster_program(), "grass"));
 }
 

@@ -9,6 +9,7 @@
 #include "engine/scene/keys/table.h"
 #include "engine/scene/resources.h"
 #include "modules/grass/components.h"
+#include "modules/grass/drawing/textures.h"
 #include "modules/grass/growth/blade_types.h"
 
 namespace gloam {
@@ -22,7 +23,8 @@ Status check_grass(World& world) {
     if (file.empty() || !status.ok()) return;
     if (const auto types = read_blade_types(file); !types.ok()) status = types.error();
   });
-  return status;
+  GLOAM_TRY(status);
+  return load_blade_textures(world);
 }
 
 }  // namespace
@@ -51,6 +53,14 @@ void add_grass_keys(KeyRegistry& registry) {
                           &GrassSurface::max_distance_m));
   registry.add(file_key(grass("gloam.grass.types", "", "", "file of blade types; default: the five built-in types"),
                         &GrassSurface::types));
+  registry.add(file_key(grass("gloam.grass.texture", "", "",
+                              "image file of blades, layers side by side, each from root (bottom) to tip; alpha below "
+                              "0.5 cuts out; default: procedural colours"),
+                        &GrassSurface::texture));
+  registry.add(integer_key(grass("gloam.grass.texture_layers", "", "",
+                                 "layers in the image; default: how many times it is as wide as high if that is a "
+                                 "whole number, else 1"),
+                           1, kMostImageLayers, &GrassSurface::texture_layers));
   registry.add(choice_key(node("gloam.collider", "", "", "shape of a collider that moves grass"),
                           {"sphere", "capsule", "box"}, ColliderShape::sphere, &Collider::shape));
   registry.add(number_key(node("gloam.collider.radius", "0.5", "m", "radius of a sphere or capsule"), 1e-6, 1e6,

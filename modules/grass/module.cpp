@@ -22,6 +22,7 @@
 #include "modules/grass/components.h"
 #include "modules/grass/debug/lod_view.h"
 #include "modules/grass/debug/pick.h"
+#include "modules/grass/drawing/textures.h"
 #include "modules/grass/field/metres.h"
 #include "modules/grass/grass_passes.h"
 #include "modules/grass/keys.h"
@@ -100,9 +101,12 @@ std::uint64_t captured_grass_content(const World& world) {
       hasher.bytes_of(value);
     hasher.value(lawn.seed).value(animated.moves(entity));
     if (!animated.moves(entity)) hasher.bytes_of(world.get<WorldTransform>(entity).matrix);
-    if (lawn.types == 0) continue;
-    std::ifstream file(world.resource<SceneStrings>().text(lawn.types), std::ios::binary);
-    hasher.text(std::string{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()});
+    hasher.value(lawn.texture == 0 ? 0u : lawn.texture_layers + 1u);
+    for (const std::uint32_t name : {lawn.types, lawn.texture}) {
+      if (name == 0) continue;
+      std::ifstream file(world.resource<SceneStrings>().text(name), std::ios::binary);
+      hasher.text(std::string{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()});
+    }
   }
   world.view<const Wind>().each([&](const Wind& wind) {
     hasher.bytes_of(wind.velocity);
@@ -139,6 +143,7 @@ class GrassModule final : public Module {
     world.ensure_resource<GrassField>();
     world.ensure_resource<GrassEntities>();
     world.ensure_resource<GrassWorld>();
+    world.ensure_resource<BladeTextures>();
     world.ensure_resource<CapturedExtras>().content["grass"] = &captured_grass_content;
   }
   void knobs(KnobRegistry& registry) const override { add_grass_knobs(registry); }
@@ -197,6 +202,8 @@ class GrassModule final : public Module {
   void prepare_view(World& world, ViewId view, const KnobRegistry& registry) const override {
     const GrassField& field = world.resource<GrassField>();
     set_texel_grid(world, field);
+    // Images of surfaces added after the scene was loaded. BladeTextures::faults keeps errors for the log.
+    static_cast<void>(load_blade_textures(world));
     if (world.resource<GrassEntities>().field_version != field.version) make_blade_entities(world, field);
     if (world.resource<GrassEntities>().field_moves != field.moves) move_patch_entities(world, field);
     if (world.try_view_resource<VisiblePatches>(view) == nullptr) world.set_view_resource(view, VisiblePatches{});
@@ -206,9 +213,10 @@ class GrassModule final : public Module {
   }
   [[nodiscard]] std::vector<VisualizerInfo> visualizers() const override { return grass_visualizers(); }
   void pipelines(const KnobRegistry& registry, const gpu::DeviceInfo& device, PipelineList& list) const override {
-    list_grass_pipelines(grass_knobs(registry), device.threads_in_turn, list);
+    list_grass_pipelines(grass_knobs(registry), device.threads_in_turn, textured_, list);
   }
   void add_passes(FrameBuilder& frame, PassPhase phase) override {
+    textured_ = has_blade_textures(frame.world());
     if (phase == PassPhase::announce) announce_grass(frame);
     if (phase == PassPhase::geometry) add_grass_passes(frame, worlds_);
     const auto* grass = frame.find<std::shared_ptr<GrassFrame>>();
@@ -242,11 +250,15 @@ class GrassModule final : public Module {
     if (grass == nullptr || (*grass)->stored.patches.empty()) return {};
     return grass_pick_lines(frame, **grass, pixel, copies);
   }
-  void release() override { worlds_.stores.clear(); }
+  void release() override {
+    worlds_.stores.clear();
+    worlds_.staging.release();
+  }
   void give_up_frame(std::uint64_t) override {}  // all state takes effect when a frame is submitted
 
  private:
   GrassWorlds worlds_;
+  bool textured_ = false;  ///< has_blade_textures() of the last frame, which selects pipelines
 };
 
 }  // namespace

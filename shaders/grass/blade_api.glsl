@@ -54,6 +54,12 @@ vec3 grass_unturned(vec4 turn, vec3 v) { return grass_turned(vec4(-turn.xyz, tur
 
 uint grass_type(GrassBladeRow row) { return row.kind >> 8 & 0xFu; }
 uint grass_layer(GrassBladeRow row) { return row.kind >> 12 & 0xFu; }
+// GrassPose::layer of a blade: a procedural colour, or GLOAM_GRASS_COLORS and the layer of an image.
+uint grass_color(GrassPatchRow patch_row, GrassBladeRow row) {
+  uint layers = patch_row.texture >> 16, layer = grass_layer(row);
+  uint in_array = uint(GLOAM_GRASS_COLORS) + (patch_row.texture & 0xFFFFu) + layer % max(layers, 1u);
+  return layers > 0u ? in_array : layer;
+}
 uint grass_master(GrassBladeRow row) { return row.kind >> 16 & 0xFFu; }
 float grass_rank(GrassBladeRow row) { return float(row.kind >> 24) / 255.0; }
 

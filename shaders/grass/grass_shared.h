@@ -12,6 +12,7 @@
 #define GLOAM_GRASS_KNOTS 16
 #define GLOAM_GRASS_PATCH_BLADES 256     // slots of a patch; the last ones may be empty
 #define GLOAM_GRASS_TYPES 16             // most blade types of a field
+#define GLOAM_GRASS_COLORS 16            // procedural colours of blades without an image
 #define GLOAM_GRASS_NO_STEP 0xFFFFFFFFu  // step stamp of a master whose knots hold nothing
 
 GLOAM_SHARED_BEGIN
@@ -49,6 +50,7 @@ struct GrassPatchRow {
   uint first_collider;  // in the colliders
   uint colliders;
   float max_distance_m;  // range of the 8-bit keys
+  uint texture;          // its blades' image: first layer of the array | layers << 16; 0: procedural colours
 };
 
 /// One collider near one patch. Positions are relative to the patch's origin and along its axes, at the begin and the

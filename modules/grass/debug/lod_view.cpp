@@ -12,7 +12,7 @@ namespace gloam {
 namespace {
 
 DrawProgram view_program(FrameBuilder& frame, std::uint32_t draw_class) {
-  DrawProgram program = blade_program(draw_class, false);
+  DrawProgram program = blade_program(draw_class, {});
   program.fragment = shaders::grass::lod_view_frag;
   program.constants = program.constants.where_present();  // without the clip plane of the shading's fragment shader
   program.constants.set(visualizer_constants(frame));

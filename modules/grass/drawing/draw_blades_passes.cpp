@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/render/declare/kept_indices.h"
+#include "modules/grass/drawing/textures.h"
 #include "modules/grass/lod/detail.h"
 #include "shaders/grass/drawing/pose_shared.h"
 #include "shaders/grass/shaders.h"
@@ -15,26 +16,33 @@ namespace {
 
 constexpr std::size_t kCasterClass = GLOAM_GRASS_CAST_CLASS;
 
+const gpu::ShaderCode& blade_fragment(const BladeVersion& version) {
+  if (version.textured)
+    return version.motion ? shaders::grass::surface_textured_motion_frag : shaders::grass::surface_textured_frag;
+  return version.motion ? shaders::grass::surface_motion_frag : shaders::grass::surface_frag;
+}
+
 }  // namespace
 
 ComputeProgram grass_pose_program() { return {shaders::grass::pose_comp}; }
 
-DrawProgram blade_program(std::uint32_t draw_class, bool motion, bool clipped) {
-  return {
-      .fragment = motion ? shaders::grass::surface_motion_frag : shaders::grass::surface_frag,
-      .constants = {{"kClass", draw_class}, {"kSegments", kClassSegments[draw_class]}, {"kClipped", clipped ? 1u : 0u}},
-      .vertex = motion ? shaders::grass::blade_motion_vert : shaders::grass::blade_vert,
-      .depth_write = true};
+DrawProgram blade_program(std::uint32_t draw_class, const BladeVersion& version) {
+  return {.fragment = blade_fragment(version),
+          .constants = {{"kClass", draw_class},
+                        {"kSegments", kClassSegments[draw_class]},
+                        {"kClipped", version.clipped ? 1u : 0u}},
+          .vertex = version.motion ? shaders::grass::blade_motion_vert : shaders::grass::blade_vert,
+          .depth_write = true};
 }
 
 CasterProgram blade_caster_program() {
   return {.vertex = shaders::grass::caster_vert, .constants = {{"kSegments", kClassSegments[kCasterClass]}}};
 }
 
-void list_blade_pipelines(bool motion, bool clipped, PipelineList& list) {
+void list_blade_pipelines(const BladeVersion& version, PipelineList& list) {
   for (std::uint32_t i = 0; i < GLOAM_GRASS_CLASSES; ++i)
     list.push_back(
-        pipeline_desc(blade_program(i, motion, clipped), "grass", geometry_formats(motion), kGeometryDepthFormat));
+        pipeline_desc(blade_program(i, version), "grass", geometry_formats(version.motion), kGeometryDepthFormat));
 }
 
 bool blade_pipelines_ready(const FrameBuilder& frame) {
@@ -42,7 +50,10 @@ bool blade_pipelines_ready(const FrameBuilder& frame) {
   if (services.wait_for_pipelines) return true;
   const auto* geometry = frame.find<GeometryOutputs>();
   PipelineList list;
-  list_blade_pipelines(geometry != nullptr && geometry->motion, frame.view().clipped, list);
+  list_blade_pipelines({.motion = geometry != nullptr && geometry->motion,
+                        .clipped = frame.view().clipped,
+                        .textured = has_blade_textures(frame.world())},
+                       list);
   return services.pipelines.request(list, services.log);
 }
 
@@ -87,15 +98,17 @@ DrawnBlades add_blade_pass(FrameBuilder& frame, const GrassInputs& inputs, const
   blades.indices = indices;
   if (!frame.status().ok()) return blades;
   GeometryOutputs& geometry = frame.get<GeometryOutputs>();
-  const bool motion = static_cast<bool>(geometry.motion);
-  const bool clipped = frame.view().clipped;
-  DrawPass pass(frame, "grass_blades", blade_program(0, motion, clipped));
+  const BladeVersion version{.motion = static_cast<bool>(geometry.motion),
+                             .clipped = frame.view().clipped,
+                             .textured = static_cast<bool>(inputs.textures)};
+  DrawPass pass(frame, "grass_blades", blade_program(0, version));
   geometry_targets(pass, geometry);
   for (std::uint32_t i = 0; i < GLOAM_GRASS_CLASSES; ++i) {
-    if (i > 0) pass.use(blade_program(i, motion, clipped));
+    if (i > 0) pass.use(blade_program(i, version));
     bind_blades(pass, blades);
     bind_motion(pass, frame.view());
-    if (motion) {
+    if (version.textured) pass.read("blade_textures", inputs.textures, Sampling::linear);
+    if (version.motion) {
       pass.uniform("steps", inputs.steps);
       pass.read("previous_knots", store.previous_knots);
       pass.read("stamps", store.stamps);

@@ -12,13 +12,18 @@
 namespace gloam {
 
 [[nodiscard]] ComputeProgram grass_pose_program();
-/// Draws one class of blades into the geometry buffer. clipped: of a view with a clip plane.
-[[nodiscard]] DrawProgram blade_program(std::uint32_t draw_class, bool motion, bool clipped = false);
+/// What selects the pipelines that draw blades into the geometry buffer.
+struct BladeVersion {
+  bool motion = false;    ///< into frames with GeometryOutputs::motion
+  bool clipped = false;   ///< of a view with a clip plane
+  bool textured = false;  ///< a surface of the world has an image of blades
+};
+/// Draws one class of blades into the geometry buffer.
+[[nodiscard]] DrawProgram blade_program(std::uint32_t draw_class, const BladeVersion& version);
 [[nodiscard]] CasterProgram blade_caster_program();
 
-/// Pipelines that draw the blades. motion: into frames with GeometryOutputs::motion. clipped: of a view with a clip
-/// plane.
-void list_blade_pipelines(bool motion, bool clipped, PipelineList& list);
+/// Pipelines that draw the blades.
+void list_blade_pipelines(const BladeVersion& version, PipelineList& list);
 /// Whether the pipelines of the view's kind exist, or the frame waits for them. Otherwise they are requested.
 [[nodiscard]] bool blade_pipelines_ready(const FrameBuilder& frame);
 

@@ -37,4 +37,11 @@ PixelCorner pixel_corner(vec4 middle, vec4 corner, vec4 ahead, vec2 size) {
 // Whether a pixel of a blade is not drawn. threshold: of the blade, 0…1.
 bool is_left_out(float coverage, float threshold) { return coverage < threshold; }
 
+// The same for a blade with an image, which shows where alpha is at least 0.5. Pixels about as wide as the blade have
+// the mean alpha across it: there alpha is a part of the coverage, so thin shapes neither vanish nor fill out.
+bool is_cut_out(float coverage, float alpha, float threshold) {
+  float near = clamp((coverage - 1.0) / (kWidestCoverage - 1.0), 0.0, 1.0);
+  return min(coverage, 1.0) * alpha < max(mix(threshold, 0.5, near), 1.0 / 255.0);
+}
+
 #endif

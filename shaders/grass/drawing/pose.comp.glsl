@@ -66,7 +66,7 @@ void main() {
   // The golden ratio spreads the thresholds of any run of slots evenly; each patch begins elsewhere.
   uint begin = blade_rows[row.first_blade].root_xz * 0x9E3779B1u >> 16;
   uint threshold = (slot * 40503u + begin) & 0xFFFFu;
-  pose.layer = grass_layer(packed_blade) | threshold << 16;
+  pose.layer = grass_color(row, packed_blade) | threshold << 16;
   poses[i] = pose;
   // The same blades cast in every frame, whatever their order. Of a few blades each one's shadow is seen: all cast.
   bool few = row.blades < GLOAM_GRASS_FEW_BLADES;

@@ -16,7 +16,7 @@ struct GrassPose {
   uint first_knot;  // of the master
   uint side;        // octahedral, snorm16: across the blade at the root
   uint width;       // packHalf2x16(width at the root in metres, after the LOD; taper)
-  uint layer;       // texture layer; threshold of pixel_width.glsl: unorm16 << 16
+  uint layer;       // grass_color(); threshold of pixel_width.glsl: unorm16 << 16
   vec3 carried;     // way of the root since the frame before, because the ground has moved
 };
 

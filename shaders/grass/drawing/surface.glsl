@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
 
-// The surface of a blade, for the geometry buffer. With GLOAM_MOTION also its motion. The blade is drawn flat and
+// The surface of a blade, for the geometry buffer. With GLOAM_MOTION also its motion, with GLOAM_TEXTURED colour and
+// shape from an image where the blade has one. The blade is drawn flat and
 // shaded as a half tube: its normal turns from edge to edge. Light passes through blades: the normal is bent upward, so
 // that a blade between the eye and a light is not black, and the material is marked as subsurface for shadows.
 // Lighting, shadows and hemispheric ambient light are those of all surfaces of the geometry buffer.
 
 #include "shaders/grass/drawing/pixel_width.glsl"
+#include "shaders/grass/grass_shared.h"
 #include "shaders/render/gbuffer_api.glsl"
 #include "shaders/render/view_api.glsl"
 #ifdef GLOAM_MOTION
@@ -16,6 +18,10 @@
 layout(constant_id = 2) const uint kClipped = 0u;  // 1: the view has a clip plane
 
 layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
+
+#ifdef GLOAM_TEXTURED
+layout(set = 0, binding = 8) uniform sampler2DArray blade_textures;  // rows from the tip to the root
+#endif
 
 layout(location = 0) in vec3 in_normal;
 layout(location = 1) in vec3 in_binormal;
@@ -47,15 +53,29 @@ vec3 layer_color(uint layer) {
 }
 
 void main() {
+  float along = in_place.x;
+  uint layer = uint(in_place.z + 0.5);
+#ifdef GLOAM_TEXTURED
+  // Before any pixel is left out: the choice of the mip needs the neighbours.
+  vec3 at = vec3(0.5 + 0.5 * in_place.y, 1.0 - along, max(float(layer) - float(GLOAM_GRASS_COLORS), 0.0));
+  vec4 texel = texture(blade_textures, at);
+  bool textured = layer >= uint(GLOAM_GRASS_COLORS);
+  bool left_out =
+      textured ? is_cut_out(in_coverage.x, texel.a, in_coverage.y) : is_left_out(in_coverage.x, in_coverage.y);
+  if (left_out) discard;
+#else
   if (is_left_out(in_coverage.x, in_coverage.y)) discard;
+#endif
   if (kClipped != 0u && is_clipped(view, in_relative)) discard;
   vec3 seen = to_viewer(view, in_relative);
   vec3 flat_normal = normalize(in_normal);
   flat_normal = dot(flat_normal, seen) < 0.0 ? -flat_normal : flat_normal;
   vec3 normal = normalize(flat_normal + normalize(in_binormal) * (kTube * in_place.y) + vec3(0.0, kUpward, 0.0));
-  float along = in_place.x;
-  vec3 color = layer_color(uint(in_place.z + 0.5)) * mix(0.55, 1.25, along);
+  vec3 color = layer_color(layer) * mix(0.55, 1.25, along);
   color *= 1.0 - 0.25 * exp2(-40.0 * in_place.y * in_place.y);  // the midrib
+#ifdef GLOAM_TEXTURED
+  color = textured ? texel.rgb : color;
+#endif
   out_base_color = encode_base_color(color, true);
   out_normals = encode_normals(normal, flat_normal);
   out_material = vec4(kRoughness, 0.0, mix(kRootLight, 1.0, smoothstep(0.0, 0.6, along)), 0.0);
