@@ -171,7 +171,8 @@ TEST_F(KeyTable, exposure_is_automatic_until_it_is_set) {
 }
 
 TEST_F(KeyTable, files_must_be_in_the_scenes_folder) {
-  for (const char* name : {"gloam.light.cookie", "gloam.ibr_proxy.texture", "gloam.grass.types"}) {
+  for (const char* name :
+       {"gloam.light.cookie", "gloam.ibr_proxy.texture", "gloam.grass.types", "gloam.grass.texture"}) {
     for (const char* file : {"absent.bin", "../file.bin", "/etc/passwd", "", "."}) {
       Place place(modules, LightKind::spot);
       const Status status = set(*registry.find(name), text(file), place.target);

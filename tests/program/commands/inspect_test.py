@@ -113,6 +113,16 @@ class Inspect(ProgramCase):
                 continue
             self.expect(3, "inspect", "lawn.gltf", says=says)
 
+    def test_a_missing_or_broken_image_of_blades_is_3(self):
+        for name, content, says in (("absent.png", None, "absent.png\n"),
+                                    ("broken.png", "no picture", "broken.png: is not a PNG or JPEG image")):
+            scene = copy.deepcopy(TRIANGLE)
+            scene["nodes"][0]["extras"] = {"gloam.grass.density": 100, "gloam.grass.texture": name}
+            (self.folder / "lawn.gltf").write_text(json.dumps(scene))
+            if content is not None:
+                (self.folder / name).write_text(content)
+            self.expect(3, "inspect", "lawn.gltf", says=says)
+
 
 if __name__ == "__main__":
     main()

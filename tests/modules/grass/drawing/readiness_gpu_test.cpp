@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <memory>
 #include <span>
@@ -16,14 +17,16 @@
 #include "modules/module_list/module_list.h"
 #include "tests/modules/grass/support/grass_stage.h"
 #include "tests/render/modules_in_use/gated_device.h"
+#include "tests/support/gltf_files.h"
 
 namespace gloam::test {
 namespace {
 
-/// Properties of a view that select the pipelines for its blades.
+/// Properties of a view and its world that select the pipelines for its blades.
 struct ViewKind {
   const char* name;
   bool motion, mirrored;
+  bool textured = false;
 };
 
 class GrassReadiness : public testing::TestWithParam<ViewKind> {
@@ -41,6 +44,8 @@ class GrassReadiness : public testing::TestWithParam<ViewKind> {
     SceneMaker scene(world);
     GrassSurface values;
     values.density = 100.0f;
+    const std::vector<std::uint8_t> leaf = make_png(2, 16, std::array<std::uint8_t, 4>{0, 255, 0, 255});
+    if (GetParam().textured) values.texture = world.resource<SceneStrings>().intern(folder.write("leaf.png", leaf));
     world.add(scene.draw(scene.mesh(quad(1.0f)), GrassStage::lying(dvec3(0.0))), values);
     request.settings = look_at(dvec3(0.0, 0.5, 2.0), dvec3(0.0), 64, 48);
     if (GetParam().mirrored) request.settings.mirror = MirrorPlane{dvec3(0.0, 0.0, 1.0), -0.8};
@@ -66,6 +71,7 @@ class GrassReadiness : public testing::TestWithParam<ViewKind> {
   std::unique_ptr<Renderer> renderer;
   World world;
   ViewRequest request;
+  TemporaryFolder folder;
 };
 
 TEST_P(GrassReadiness, blades_come_when_their_pipelines_are_made_and_no_frame_makes_one) {
@@ -83,7 +89,9 @@ TEST_P(GrassReadiness, blades_come_when_their_pipelines_are_made_and_no_frame_ma
 
 INSTANTIATE_TEST_SUITE_P(Views, GrassReadiness,
                          testing::Values(ViewKind{"still", false, false}, ViewKind{"motion", true, false},
-                                         ViewKind{"mirrored", false, true}, ViewKind{"mirrored_motion", true, true}),
+                                         ViewKind{"mirrored", false, true}, ViewKind{"mirrored_motion", true, true},
+                                         ViewKind{"textured", false, false, true},
+                                         ViewKind{"textured_motion", true, true, true}),
                          [](const auto& instance) { return std::string(instance.param.name); });
 
 }  // namespace
