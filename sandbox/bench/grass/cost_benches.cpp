@@ -1,17 +1,30 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
+#include <sstream>
 #include <string>
+#include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
+#include "engine/scene/resources.h"
+#include "modules/grass/components.h"
 #include "modules/grass/field/grow.h"
+#include "modules/grass/growth/blade_types.h"
 #include "sandbox/bench/grass/case.h"
 #include "sandbox/bench/harness/benches.h"
 #include "sandbox/bench/harness/context.h"
@@ -131,6 +144,103 @@ void add_live_rows(BenchRegistry& registry) {
   }
 }
 
+/// Types for a field of nine, beside the built-in five.
+constexpr std::string_view kFurtherTypes =
+    R"(leaning    0.20   1.00    0.95   0.30       0.10   0,0  0.15,0.35  0.32,0.7  0.5,1
+drooping   0.16   1.15    0.80   0.24       0.08   0,0  0.02,0.5  0.1,0.9  0.35,0.95  0.55,0.75
+short      0.14   0.60    1.10   0.40       0.20   0,0  0.02,0.5  0.06,1
+curled     0.10   0.85    0.90   0.26       0.10   0,0  0.05,0.45  0.25,0.8  0.4,0.75  0.35,0.6
+)";
+constexpr std::array<std::size_t, 3> kTypeCounts = {3, 5, 9};
+constexpr std::size_t kNeighbourPatches = 400;
+
+/// The first lines of the built-in types, and of the further ones, as a file.
+std::string types_text(std::size_t types) {
+  std::istringstream lines(std::string(builtin_blade_types_text()) + std::string(kFurtherTypes));
+  std::string text;
+  for (std::string line; types > 0 && std::getline(lines, line);) {
+    if (line.empty() || line[0] == '#') continue;
+    text += line + "\n";
+    --types;
+  }
+  return text;
+}
+
+/// Share of blades whose nearest neighbour in their patch copies the shape of the same type.
+double same_neighbours(const GrassField& field) {
+  std::size_t same = 0, all = 0;
+  for (std::size_t p = 0; p < std::min(field.patches.size(), kNeighbourPatches); ++p) {
+    const std::span<const GrassBlade> blades =
+        std::span(field.blades).subspan(p * GLOAM_GRASS_PATCH_BLADES, field.patches[p].blades);
+    const auto shape = [&](std::size_t i) { return field.blades[blades[i].master].type; };
+    for (std::size_t i = 0; i < blades.size(); ++i) {
+      std::size_t nearest = i;
+      float least = std::numeric_limits<float>::infinity();
+      for (std::size_t k = 0; k < blades.size(); ++k) {
+        const float distance = k == i ? least : glm::length(blades[k].root_m - blades[i].root_m);
+        if (distance < least) least = distance, nearest = k;
+      }
+      if (nearest == i) continue;
+      ++all;
+      same += shape(nearest) == shape(i) ? 1 : 0;
+    }
+  }
+  return all > 0 ? static_cast<double>(same) / static_cast<double>(all) : 0.0;
+}
+
+struct TypeCost {
+  GrassCost cost;
+  double same_neighbours = 0.0;
+};
+
+/// The usual frame with this many blade types.
+Result<TypeCost> measure_types(BenchContext& context, std::size_t types) {
+  const auto grass = GrassCase::open(context, "near", kGrassCostWidth, kGrassCostHeight);
+  if (!grass) return grass.error();
+  std::error_code fault;
+  std::string path = (std::filesystem::temp_directory_path(fault) / "gloam-types-XXXXXX").string();
+  const int file = mkstemp(path.data());
+  if (file < 0) return Error{ErrorKind::failed, "no temporary file can be made for blade types: " + path};
+  close(file);
+  std::ofstream(path) << types_text(types);
+  World& world = (*grass)->session().world;
+  const std::uint32_t name = world.resource<SceneStrings>().intern(path);
+  world.view<GrassSurface>().each([&](GrassSurface& surface) { surface.types = name; });
+  auto cost = measure_grass_cost(**grass, kGrassCostWarmUp, kGrassCostFrames);
+  std::filesystem::remove(path, fault);
+  if (!cost) return cost.error();
+  const GrassField& field = world.resource<GrassField>();
+  if (field.types.size() != types)
+    return Error{ErrorKind::failed, "the field has " + std::to_string(field.types.size()) + " blade types"};
+  return TypeCost{std::move(*cost), same_neighbours(field)};
+}
+
+void add_type_rows(BenchRegistry& registry) {
+  for (const std::size_t types : kTypeCounts) {
+    const auto shared = std::make_shared<Once<TypeCost>>();
+    const std::string id = "grass.types." + std::to_string(types);
+    const auto measured = [shared, types](BenchContext& context) {
+      return shared->get([&] { return measure_types(context, types); });
+    };
+    add_cost_rows(registry, id, std::nullopt, [measured](BenchContext& context) -> Result<const GrassCost*> {
+      const auto found = measured(context);
+      if (!found) return found.error();
+      return &(*found)->cost;
+    });
+    BenchRow row;
+    row.id = id + ".same_neighbours";
+    row.unit = "share of blades";
+    row.run = [measured](BenchContext& context) -> Result<BenchValue> {
+      const auto found = measured(context);
+      if (!found) return found.error();
+      BenchValue value = single_value((*found)->same_neighbours, (*found)->cost.hash);
+      value.scene = kMeadow;
+      return value;
+    };
+    registry.add(std::move(row));
+  }
+}
+
 /// Frames of the usual view with two values of a knob in turn.
 struct TwoCosts {
   std::array<std::vector<double>, 2> simulation_ns;
@@ -223,6 +333,7 @@ void add_setting_row(BenchRegistry& registry, const std::string& knob, const std
 void add_grass_cost_benches(BenchRegistry& registry) {
   add_grass_frame_rows(registry);
   add_live_rows(registry);
+  add_type_rows(registry);
   add_detail_rows(registry);
   for (const char* value : {"indirect", "readback"}) add_setting_row(registry, "grass.dispatch", value);
   for (const char* value : {"32", "64", "128", "blade"}) add_setting_row(registry, "grass.group", value);

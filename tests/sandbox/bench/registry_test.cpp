@@ -173,12 +173,28 @@ TEST(BenchRegistry, has_the_rows_of_grass) {
   EXPECT_EQ(rows["grass.sort_over_std_sort"].better, Better::higher);
   EXPECT_EQ(rows["grass.frame.ms"].bar, 60.0);
   EXPECT_EQ(rows["grass.walk.temporal_over_no_lod"].bar, 1.1);
-  for (const char* id :
-       {"masters.1_2.tip_error_mean_mm", "masters.1_16.tip_error_p99_mm", "masters.1_1.ms", "iterations.1.ms",
-        "iterations.8.tip_error_mean_mm", "iterations.8.tip_error_p99_mm", "frame.simulation_ms", "frame.lod_ms",
-        "frame.drawing_ms", "frame.live", "cost.live_1k.sort_ms", "cost.live_10k.lod_ms",
-        "cost.live_100k.simulation_ms", "cost.live_1m.drawing_ms", "field_x10.drawing_over_same_live", "walk.flip",
-        "coverage_difference", "dispatch.readback.simulation_ms", "group.128.simulation_ms"})
+  for (const char* id : {"masters.1_2.tip_error_mean_mm",
+                         "masters.1_16.tip_error_p99_mm",
+                         "masters.1_1.ms",
+                         "iterations.1.ms",
+                         "iterations.8.tip_error_mean_mm",
+                         "iterations.8.tip_error_p99_mm",
+                         "frame.simulation_ms",
+                         "frame.lod_ms",
+                         "frame.drawing_ms",
+                         "frame.live",
+                         "cost.live_1k.sort_ms",
+                         "cost.live_10k.lod_ms",
+                         "cost.live_100k.simulation_ms",
+                         "cost.live_1m.drawing_ms",
+                         "field_x10.drawing_over_same_live",
+                         "walk.flip",
+                         "coverage_difference",
+                         "types.3.ms",
+                         "types.5.same_neighbours",
+                         "types.9.drawing_ms",
+                         "dispatch.readback.simulation_ms",
+                         "group.128.simulation_ms"})
     EXPECT_TRUE(rows.contains("grass." + std::string(id))) << id;
 }
 
