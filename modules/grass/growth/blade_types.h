@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,9 +34,11 @@ struct BladeType {
 [[nodiscard]] std::string_view builtin_blade_types_text();
 [[nodiscard]] std::vector<BladeType> builtin_blade_types();
 
-/// Samples the stem at 16 knots with equal distances, 1/15 each, so that its length is 1. The curve of the control
-/// points is a quadratic B-spline: it begins at the first and ends at the last, and bends sharply at a point that is
-/// given twice. No knot is below 0. damping: GrassSurface::damping.
+/// Samples the stem at `count` ≥ 2 knots (forward, up) with equal distances, so that its length is 1. The curve of the
+/// control points is a quadratic B-spline: it begins at the first and ends at the last, and bends sharply at a point
+/// that is given twice. No knot is below 0.
+[[nodiscard]] std::vector<glm::dvec2> stem_knots(const BladeType& type, std::size_t count);
+/// The stem at 16 knots, 1/15 apart, and what else the GPU reads of a type. damping: GrassSurface::damping.
 [[nodiscard]] shaders::GrassTypeRow blade_type_row(const BladeType& type, float damping = 1.5f);
 
 }  // namespace gloam

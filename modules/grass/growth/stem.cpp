@@ -1,17 +1,15 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
 
 #include "engine/core/assert.h"
 #include "modules/grass/growth/blade_types.h"
 
 namespace gloam {
 namespace {
-
-constexpr std::size_t kSegments = GLOAM_GRASS_KNOTS - 1;
 
 struct StemPoint {
   double forward = 0.0;
@@ -60,11 +58,11 @@ double leaving_share(const StemPoint& center, double radius, const StemPoint& in
 }
 
 /// Walks along the polyline in steps whose ends are `chord` apart. Returns whether all steps fit.
-bool place_knots(const std::vector<StemPoint>& line, double chord, std::array<StemPoint, GLOAM_GRASS_KNOTS>& knots) {
+bool place_knots(const std::vector<StemPoint>& line, double chord, std::span<StemPoint> knots) {
   knots[0] = line.front();
   StemPoint begin = line.front();  // of the rest of the segment that ends at line[next]
   std::size_t next = 1;
-  for (std::size_t knot = 1; knot <= kSegments; ++knot) {
+  for (std::size_t knot = 1; knot < knots.size(); ++knot) {
     const StemPoint from = knots[knot - 1];
     while (next < line.size() && distance(from, line[next]) < chord) begin = line[next++];
     if (next == line.size()) return false;
@@ -76,23 +74,30 @@ bool place_knots(const std::vector<StemPoint>& line, double chord, std::array<St
 
 }  // namespace
 
-shaders::GrassTypeRow blade_type_row(const BladeType& type, float damping) {
-  GLOAM_ASSERT(type.points.size() >= 2, "a stem has at least two control points");
+std::vector<glm::dvec2> stem_knots(const BladeType& type, std::size_t count) {
+  GLOAM_ASSERT(type.points.size() >= 2 && count >= 2, "a stem has at least two control points and two knots");
+  const auto segments = static_cast<double>(count - 1);
   const std::vector<StemPoint> line = flatten(type.points);
   double length = 0.0;
   for (std::size_t i = 1; i < line.size(); ++i) length += distance(line[i - 1], line[i]);
   double fits = 0.0;
-  double too_long = length / kSegments * (1.0 + 1e-9);
-  std::array<StemPoint, GLOAM_GRASS_KNOTS> knots;
+  double too_long = length / segments * (1.0 + 1e-9);
+  std::vector<StemPoint> knots(count);
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (fits + too_long);
     (place_knots(line, middle, knots) ? fits : too_long) = middle;
   }
   static_cast<void>(place_knots(line, fits, knots));
+  const double scale = 1.0 / (fits * segments);
+  std::vector<glm::dvec2> found;
+  for (const StemPoint& knot : knots) found.emplace_back(knot.forward * scale, knot.up * scale);
+  return found;
+}
+
+shaders::GrassTypeRow blade_type_row(const BladeType& type, float damping) {
+  const std::vector<glm::dvec2> knots = stem_knots(type, GLOAM_GRASS_KNOTS);
   shaders::GrassTypeRow row{};
-  const double scale = 1.0 / (fits * kSegments);
-  for (std::size_t i = 0; i < knots.size(); ++i)
-    row.stem[i] = vec2(static_cast<float>(knots[i].forward * scale), static_cast<float>(knots[i].up * scale));
+  for (std::size_t i = 0; i < knots.size(); ++i) row.stem[i] = vec2(knots[i]);
   row.stiffness = type.stiffness;
   row.taper = type.taper;
   row.damping = type.damping * damping;

@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "engine/scene/resources.h"
+#include "modules/accuracy/metrics/statistics.h"
 #include "modules/grass/components.h"
 #include "modules/grass/field/grow.h"
 #include "modules/grass/growth/blade_types.h"
@@ -241,6 +242,48 @@ void add_type_rows(BenchRegistry& registry) {
   }
 }
 
+/// Rows of stems at rest with other numbers of knots: how far their segments are from the curve of the type. The number
+/// of knots of the simulation is a constant of its kernels.
+constexpr std::array<std::size_t, 3> kKnotCounts = {8, 16, 24};
+constexpr std::size_t kCurveKnots = 512;
+constexpr double kKnotBlade_mm = 300.0;
+
+/// Distances of a curve from the stem with this many knots, mm, for a blade of kKnotBlade_mm.
+std::vector<float> stem_errors_mm(const BladeType& type, std::size_t count) {
+  const std::vector<glm::dvec2> stem = stem_knots(type, count);
+  std::vector<float> errors;
+  for (const glm::dvec2& at : stem_knots(type, kCurveKnots)) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 1; i < stem.size(); ++i) {
+      const glm::dvec2 way = stem[i] - stem[i - 1];
+      const double share = std::clamp(glm::dot(at - stem[i - 1], way) / glm::dot(way, way), 0.0, 1.0);
+      least = std::min(least, glm::length(stem[i - 1] + share * way - at));
+    }
+    errors.push_back(static_cast<float>(kKnotBlade_mm * least));
+  }
+  return errors;
+}
+
+void add_knot_rows(BenchRegistry& registry) {
+  for (const std::size_t knots : kKnotCounts)
+    for (const bool greatest : {false, true}) {
+      BenchRow row;
+      row.id = "grass.knots." + std::to_string(knots) + (greatest ? ".stem_error_max_mm" : ".stem_error_mean_mm");
+      row.unit = "mm";
+      row.run = [knots, greatest](BenchContext&) -> Result<BenchValue> {
+        std::vector<float> errors;
+        for (const BladeType& type : builtin_blade_types()) {
+          const std::vector<float> some = stem_errors_mm(type, knots);
+          errors.insert(errors.end(), some.begin(), some.end());
+        }
+        const ErrorStatistics error = statistics_of(errors);
+        const double value = greatest ? error.max : error.mean;
+        return single_value(value, hash_of_number(value));
+      };
+      registry.add(std::move(row));
+    }
+}
+
 /// Frames of the usual view with two values of a knob in turn.
 struct TwoCosts {
   std::array<std::vector<double>, 2> simulation_ns;
@@ -334,6 +377,7 @@ void add_grass_cost_benches(BenchRegistry& registry) {
   add_grass_frame_rows(registry);
   add_live_rows(registry);
   add_type_rows(registry);
+  add_knot_rows(registry);
   add_detail_rows(registry);
   for (const char* value : {"indirect", "readback"}) add_setting_row(registry, "grass.dispatch", value);
   for (const char* value : {"32", "64", "128", "blade"}) add_setting_row(registry, "grass.group", value);

@@ -191,6 +191,7 @@ TEST(BenchRegistry, has_the_rows_of_grass) {
                          "walk.flip",
                          "coverage_difference",
                          "types.3.ms",
+                         "knots.24.stem_error_max_mm",
                          "types.5.same_neighbours",
                          "types.9.drawing_ms",
                          "dispatch.readback.simulation_ms",

@@ -72,6 +72,17 @@ TEST(BladeTypes, stems_that_turn_back_curl_or_touch_the_ground_stay_equidistant_
   expect_good_stem(blade_type_row(stem_of({{0, 0}, {0, 0}, {0, 0}, {0, 0.001f}})), "tiny");
 }
 
+TEST(BladeTypes, stems_have_any_number_of_equidistant_knots_and_a_length_of_1) {
+  for (const BladeType& type : builtin_blade_types())
+    for (const std::size_t count : {2u, 8u, 16u, 24u, 512u}) {
+      const std::vector<glm::dvec2> knots = stem_knots(type, count);
+      ASSERT_EQ(knots.size(), count);
+      EXPECT_EQ(knots.front(), glm::dvec2(0.0));
+      for (std::size_t i = 1; i < count; ++i)
+        ASSERT_NEAR(glm::length(knots[i] - knots[i - 1]), 1.0 / static_cast<double>(count - 1), 1e-6) << type.name;
+    }
+}
+
 TEST(BladeTypes, a_point_given_twice_is_a_kink) {
   const auto sharpest = [](const shaders::GrassTypeRow& row) {
     float least = 1.0f;
