@@ -101,7 +101,7 @@ std::uint64_t captured_grass_content(const World& world) {
       hasher.bytes_of(value);
     hasher.value(lawn.seed).value(animated.moves(entity));
     if (!animated.moves(entity)) hasher.bytes_of(world.get<WorldTransform>(entity).matrix);
-    hasher.value(lawn.texture == 0 ? 0u : lawn.texture_layers + 1u);
+    if (lawn.texture != 0) hasher.value(lawn.texture_layers);
     for (const std::uint32_t name : {lawn.types, lawn.texture}) {
       if (name == 0) continue;
       std::ifstream file(world.resource<SceneStrings>().text(name), std::ios::binary);
