@@ -124,9 +124,6 @@ BladeState random_pose(const BladeModel& blade, const BladeSteps& frame, std::mt
 }
 
 // Hard case: grass.wind_0, grass.energy
-// Half a minute: what swings for the longest time has come to rest.
-constexpr int kStepsToRest = 3600;
-
 TEST(BladeSolver, ten_thousand_steps_without_wind_gain_no_energy) {
   std::mt19937 random(1);
   for (const float stiffness : {0.0f, 0.02f, 0.1f, 0.5f, 1.0f})
@@ -144,7 +141,7 @@ TEST(BladeSolver, ten_thousand_steps_without_wind_gain_no_energy) {
       expect_sound(blade, state);
       const BladeState still = state;
       state = random_pose(blade, frame, random);
-      for (int step = 0; step < std::max(scaled(10000), kStepsToRest); ++step) advance_blade(blade, frame, 1, state);
+      for (int step = 0; step < 10000; ++step) advance_blade(blade, frame, 1, state);
       expect_sound(blade, state);
       double speed = 0.0;
       for (std::size_t k = 0; k < kGrassKnots; ++k)
