@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "engine/math/srgb.h"
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 namespace gloam {
 namespace {
@@ -23,5 +25,15 @@ float srgb_to_linear(float srgb) { return srgb_decoded(srgb); }
 double srgb_to_linear(double srgb) { return srgb_decoded(srgb); }
 float linear_to_srgb(float linear) { return srgb_encoded(linear); }
 double linear_to_srgb(double linear) { return srgb_encoded(linear); }
+
+const std::array<float, 256>& linear_of_srgb() {
+  static const std::array<float, 256> table = [] {
+    std::array<float, 256> values{};
+    for (std::size_t i = 0; i < values.size(); ++i)
+      values[i] = static_cast<float>(srgb_to_linear(static_cast<double>(i) / 255.0));
+    return values;
+  }();
+  return table;
+}
 
 }  // namespace gloam

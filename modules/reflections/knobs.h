@@ -40,7 +40,7 @@ struct ReflectionKnobs {
   bool blur = true;
   bool dilation = true;
   bool bump = true;
-  bool pixel_normals = false;  ///< of the rays of screen space and proxies; none is vertical then by rule
+  bool pixel_normals = false;  ///< rays of screen space and proxies follow the normals of pixels, not the vertical
   bool light_scale = true;
   float k1 = 0.0f;
   float k2 = 0.0f;

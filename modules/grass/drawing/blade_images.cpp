@@ -3,7 +3,6 @@
 #include "modules/grass/drawing/blade_images.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -13,16 +12,6 @@
 
 namespace gloam {
 namespace {
-
-const std::array<float, 256>& linear_of_srgb() {
-  static const std::array<float, 256> table = [] {
-    std::array<float, 256> values{};
-    for (std::size_t i = 0; i < values.size(); ++i)
-      values[i] = static_cast<float>(srgb_to_linear(static_cast<double>(i) / 255.0));
-    return values;
-  }();
-  return table;
-}
 
 std::uint8_t byte_of(float unit) { return static_cast<std::uint8_t>(std::clamp(unit, 0.0f, 1.0f) * 255.0f + 0.5f); }
 

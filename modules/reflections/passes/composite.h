@@ -9,6 +9,7 @@
 namespace gloam {
 
 /// screen_space: whether hits are looked up again where mirrors are smooth. bumpy: for tiles with slanted normals.
+/// centered: texels stand for the middles of blocks, as ReflectionConstants::centered says.
 [[nodiscard]] ComputeProgram composite_program(bool screen_space, bool bumpy, bool centered);
 
 /// Adds the mirrored images to LitOutput, in the tiles that hold a mirror surface: upscaled, with bent lookup, sharp

@@ -3,7 +3,6 @@
 #include "modules/shadows/filter/cookies.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -14,16 +13,6 @@
 
 namespace gloam {
 namespace {
-
-const std::array<float, 256>& linear_of_srgb() {
-  static const std::array<float, 256> table = [] {
-    std::array<float, 256> values{};
-    for (std::size_t i = 0; i < values.size(); ++i)
-      values[i] = static_cast<float>(srgb_to_linear(static_cast<double>(i) / 255.0));
-    return values;
-  }();
-  return table;
-}
 
 std::uint8_t srgb_of(float linear) {
   return static_cast<std::uint8_t>(linear_to_srgb(std::clamp(linear, 0.0f, 1.0f)) * 255.0f + 0.5f);

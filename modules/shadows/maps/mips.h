@@ -18,6 +18,7 @@ namespace gloam {
 
 // Plans and records the dispatches that move drawn faces into the atlas and make their mips and pyramid. They read
 // scratch images, which the frame graph does not track, so their passes record commands themselves.
+
 /// Runs of three mips: the first reads mip 0, further ones the last mip of the run before.
 enum class MipRuns : std::uint32_t { first = 1, further = 2 };
 [[nodiscard]] ComputeProgram shadow_mips_program(const ShadowKnobs& knobs, MipRuns runs);
