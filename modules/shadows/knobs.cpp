@@ -7,10 +7,11 @@
 namespace gloam {
 
 void add_shadow_knobs(KnobRegistry& registry) {
-  add_knobs(registry, "shadows", kShadowMode, kShadowClassify, kShadowFilter, kShadowKernel, kShadowNear, kShadowMips,
-            kShadowMipOperator, kSquareShadowKernel, kShadowReceiverPlane, kShadowTerminator, kShadowDepth16,
-            kOrientedShadowBias, kSubsurfaceBacks, kShadowBiasMm, kShadowBiasUnits, kVisibilityLevels, kShadowAtlas,
-            kShadowTexelsPerPixel, kSimplifiedCasters, kShadowSlotLimit, kShadowPairLimit, kShadowEarlyOuts);
+  add_knobs(registry, "shadows", kShadowMode, kShadowClassify, kShadowFilter, kShadowKernel, kShadowNear,
+            kShadowNearDirections, kShadowMips, kShadowMipOperator, kSquareShadowKernel, kShadowReceiverPlane,
+            kShadowTerminator, kShadowDepth16, kOrientedShadowBias, kSubsurfaceBacks, kShadowBiasMm, kShadowBiasUnits,
+            kVisibilityLevels, kShadowAtlas, kShadowTexelsPerPixel, kSimplifiedCasters, kShadowSlotLimit,
+            kShadowPairLimit, kShadowEarlyOuts);
 }
 
 ShadowKnobs shadow_knobs(const KnobRegistry& registry) {
@@ -35,6 +36,7 @@ ShadowKnobs shadow_knobs(const KnobRegistry& registry) {
   knobs.texels_per_pixel = static_cast<float>(registry.value(kShadowTexelsPerPixel));
   knobs.simplified = registry.value(kSimplifiedCasters);
   knobs.near = registry.value(kShadowNear);
+  knobs.near_directions = registry.value(kShadowNearDirections);
   knobs.early_outs = registry.value(kShadowEarlyOuts);
   knobs.deferred = registry.value(kShadowMode) == ShadowMode::deferred;
   knobs.classify = registry.value(kShadowClassify);
@@ -64,6 +66,7 @@ gpu::SpecConstants shadow_constants(const ShadowKnobs& knobs, std::uint32_t filt
   constants.set_if_present("kFullPenumbra", knobs.early_outs ? 0u : 1u);
   constants.set_if_present("kCoverage", knobs.mip_operator == GLOAM_SHADOW_MIPS_COVERAGE ? 1u : 0u);
   constants.set_if_present("kNear", knobs.near);
+  constants.set_if_present("kNearDirections", static_cast<std::int32_t>(knobs.near_directions));
   constants.set_if_present("kTerminator", knobs.terminator ? 1u : 0u);
   constants.set_if_present("kTransmission", knobs.transmission ? 1u : 0u);
   constants.set_if_present("kSubsurfaceBias", knobs.subsurface_backs ? 1u : 4u);

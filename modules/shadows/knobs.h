@@ -50,6 +50,13 @@ inline constexpr ChoiceKnob<std::uint32_t> kShadowNear{
     .choices = {{"off", 0}, {"wide", 1}, {"all", 2}},
     .default_value = 1,
     .only_with = "shadows.filter=chs"};
+inline constexpr ChoiceKnob<std::uint32_t> kShadowNearDirections{
+    .name = "shadows.near_directions",
+    .meaning = "directions around the receiver's in which shadows.near looks for blockers",
+    .choices = {{"8", 8}, {"16", 16}, {"32", 32}},
+    .default_value = 16,
+    .unit = "directions",
+    .only_with = "shadows.near=wide|all"};
 inline constexpr OnOffKnob kShadowMips{.name = "shadows.mips",
                                        .meaning = "filter wide penumbrae in mips of the shadow maps",
                                        .default_value = true,
@@ -189,8 +196,9 @@ struct ShadowKnobs {
   std::uint32_t levels = 255;  ///< steps of a visibility: 15 or 255; 0: not quantised
   std::uint32_t atlas_size = 4096;
   float texels_per_pixel = 3.0f;
-  bool simplified = false;        ///< casters are drawn with their simplified triangles
-  std::uint32_t near = 1;         ///< estimate of near blockers: 0 off, 1 wide, 2 all
+  bool simplified = false;  ///< casters are drawn with their simplified triangles
+  std::uint32_t near = 1;   ///< estimate of near blockers: 0 off, 1 wide, 2 all
+  std::uint32_t near_directions = 16;
   bool terminator = false;        ///< smooth-shaded surfaces are judged at their smooth surface
   bool subsurface_backs = false;  ///< closed bodies that light passes through are drawn without their lit side
   bool transmission = false;      ///< the scene has materials that light passes through

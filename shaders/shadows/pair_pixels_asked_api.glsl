@@ -26,8 +26,8 @@ PixelOfPair pixel_of_pair(LightOfPair light, uvec2 pixel) {
 uvec2 pixel_at(uvec2 tile, uint pixel) { return tile * uint(GLOAM_SHADOW_TILE) + uvec2(pixel & 7u, pixel >> 3); }
 
 // Evaluates the tile's pixels. First each thread evaluates its own pixels as far as possible without the filter; then
-// the pixels that need the filter are distributed over all threads, and then those that take light from behind. Three
-// loops: within the first, the rare pixels of the others would cost all pixels time (registers).
+// the pixels that need the filter are distributed over all threads, then those with near blockers, and then those that
+// take light from behind. A loop each: within the first, the rare pixels of the others would cost all pixels time.
 void ask_pixels(LightOfPair light, uvec2 tile, uint lane) {
   uint some = 0u, i = 0u, steps;
   do {
@@ -35,10 +35,11 @@ void ask_pixels(LightOfPair light, uvec2 tile, uint lane) {
     PixelOfPair p = pixel_of_pair(light, pixel_at(tile, pixel));
     bool known = true;
     float visibility, width = 0.0;
+    uint sectors = 0u;
     bool live = p.point.live, behind = kTransmission != 0u && p.matters && p.extinction_m > 0.0;
     p.point.live = live && !behind;
     if (kFilter == 3u)
-      known = known_before_filter(p.point, visibility, width) || !p.matters;
+      known = known_before_filter(p.point, visibility, width, sectors) || !p.matters;
     else
       visibility = unquantised_visibility(p.point);
     p.point.live = live;
@@ -49,6 +50,8 @@ void ask_pixels(LightOfPair light, uvec2 tile, uint lane) {
     } else if (known) {
       some |= says;
       pack_own_steps(pixel, steps);
+    } else if (width < 0.0) {
+      near_pixels[atomicAdd(near_count, 1u)] = pixel | sectors << 8;
     } else {
       filtered[atomicAdd(filtered_count, 1u)] = pixel;
     }
@@ -61,8 +64,18 @@ void ask_pixels(LightOfPair light, uvec2 tile, uint lane) {
   if (i < count) do {
       uint pixel = filtered[i];
       PixelOfPair p = pixel_of_pair(light, pixel_at(tile, pixel));
-      uint says = keep_visibility(pixel, p, filtered_visibility(p.point, widths[pixel]), steps);
+      uint says = keep_visibility(pixel, p, kernel_visibility(p.point, widths[pixel]), steps);
       atomicOr(found, says);  // in the loop, not once after it: see never()
+      pack_steps(pixel, steps);
+      i += kThreads;
+    } while (i < count);
+  count = kFilter == 3u && kNear != 0u ? near_count : 0u;
+  i = lane;
+  if (i < count) do {
+      uint pixel = near_pixels[i] & 255u, sectors = near_pixels[i] >> 8;
+      PixelOfPair p = pixel_of_pair(light, pixel_at(tile, pixel));
+      uint says = keep_visibility(pixel, p, near_visibility(p.point, -widths[pixel], sectors), steps);
+      atomicOr(found, says);
       pack_steps(pixel, steps);
       i += kThreads;
     } while (i < count);

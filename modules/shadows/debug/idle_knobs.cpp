@@ -75,11 +75,12 @@ bool has_near_blocker(const World& world) {
 
 std::string idle_shadow_knob(const World& world, std::string_view knob, const FrameCounters& counters) {
   if (knob == kSubsurfaceBacks.name && !lets_light_through(world)) return "no material lets light through";
-  constexpr std::string_view kOfWidth[] = {kShadowNear.name, kShadowMips.name, kShadowMipOperator.name,
-                                           kSquareShadowKernel.name};
+  constexpr std::string_view kOfWidth[] = {kShadowNear.name, kShadowNearDirections.name, kShadowMips.name,
+                                           kShadowMipOperator.name, kSquareShadowKernel.name};
   if (std::ranges::find(kOfWidth, knob) != std::end(kOfWidth) && !has_wide_light(world))
     return "no light that casts shadows has a width";
-  if (knob == kShadowNear.name && !has_near_blocker(world)) return "no lamp has a near blocker";
+  if ((knob == kShadowNear.name || knob == kShadowNearDirections.name) && !has_near_blocker(world))
+    return "no lamp has a near blocker";
   const auto all = counters.find("shadows.tile_lights"), filtered = counters.find("shadows.tile_lights_filtered");
   if (all == counters.end() || filtered == counters.end()) return {};
   if (all->second <= 0.0) return "no surface in view is in reach of a light that casts shadows";

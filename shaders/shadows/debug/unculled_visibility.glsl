@@ -11,9 +11,10 @@ layout(constant_id = 2) const uint kFilterAll = 0u;  // 1: chs_visibility() with
 // Runs the filter also where the search found that nothing or everything blocks.
 float filtered_everywhere(ShadowPoint p) {
   float visibility, width;
-  bool known = known_before_filter(p, visibility, width);
+  uint sectors;
+  bool known = known_before_filter(p, visibility, width, sectors);
   if (known) width = penumbra_width(p, region_blockers(p, find_region(p)).depth);
-  float filtered = filtered_visibility(p, width);
+  float filtered = filtered_visibility(p, width, sectors);
   return p.live ? filtered : visibility;
 }
 

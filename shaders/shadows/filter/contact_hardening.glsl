@@ -174,9 +174,8 @@ float blocked_share_across(ShadowPoint p, float width, bool across) {
 }
 #endif
 
-// Filtered visibility for a penumbra of this width, in texels of mip 0. Negative: near_visibility() with this tangent.
-float filtered_visibility(ShadowPoint p, float width) {
-  float near = near_visibility(p, -width, width < 0.0);
+// Filtered visibility for a penumbra of this width, in texels of mip 0.
+float kernel_visibility(ShadowPoint p, float width) {
   FilterMips mips = filter_mips(p, width);
   bool across = filter_leaves_face(p, mips, width);
   float share = 0.0;
@@ -196,7 +195,13 @@ float filtered_visibility(ShadowPoint p, float width) {
 #ifdef GLOAM_SHADOWS_CROSSING
   share += blocked_share_across(p, width, across);
 #endif
-  return width < 0.0 ? near : 1.0 - share;
+  return 1.0 - share;
+}
+
+// The same. Negative widths: near_visibility() with this tangent and these sectors.
+float filtered_visibility(ShadowPoint p, float width, uint sectors) {
+  float near = near_visibility(p, -width, width < 0.0 ? sectors : 0u), filtered = kernel_visibility(p, width);
+  return width < 0.0 ? near : filtered;
 }
 
 // Whether all of the region blocks.
@@ -206,8 +211,8 @@ bool surely_unlit(ShadowPoint p, SearchRegion region) {
 }
 
 // Whether a receiver's visibility is known without the filter. If so, it is `visibility`; otherwise
-// filtered_visibility() gives it, for a penumbra of `width`.
-bool known_before_filter(ShadowPoint p, out float visibility, out float width) {
+// filtered_visibility() gives it, for a penumbra of `width` and these `sectors`.
+bool known_before_filter(ShadowPoint p, out float visibility, out float width, out uint sectors) {
   SearchRegion region = SearchRegion(0.0, 0.0, 0.0);
   if (p.live) do {
       region = find_region(p);
@@ -229,6 +234,7 @@ bool known_before_filter(ShadowPoint p, out float visibility, out float width) {
     known = false;
     width = -min(2.0 * tangent, bounds.reach);
   }
+  sectors = bounds.sectors;
   if (wide) region.width = min(region.width, 2.0 * bounds.reach * p.size / p.tan_half);
   if (!near && p.live && unsure && !unlit) do {
       Blockers blockers = region_blockers(p, region);
@@ -240,9 +246,10 @@ bool known_before_filter(ShadowPoint p, out float visibility, out float width) {
 
 float chs_visibility(ShadowPoint p) {
   float visibility, width;
-  bool known = known_before_filter(p, visibility, width);
+  uint sectors;
+  bool known = known_before_filter(p, visibility, width, sectors);
   if (!known) do {
-      visibility = filtered_visibility(p, width);
+      visibility = filtered_visibility(p, width, sectors);
     } while (never(p));
   return visibility;
 }

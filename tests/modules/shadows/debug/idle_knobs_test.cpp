@@ -42,10 +42,12 @@ TEST_F(IdleShadowKnobs, a_lamp_without_near_blockers_says_so) {
   EXPECT_EQ(reason("shadows.near"), "no lamp has a near blocker") << "nothing casts";
   const Entity far = add_box(dvec3(0.7, 0.0, 0.0));
   EXPECT_EQ(reason("shadows.near"), "no lamp has a near blocker");
+  EXPECT_EQ(reason("shadows.near_directions"), "no lamp has a near blocker");
   EXPECT_EQ(reason("shadows.mips"), "") << "it is about near blockers only";
   // 0.1 m / 0.3 is 33 cm of depth: in the corner of a face up to 58 cm away.
   add_box(dvec3(0.32));
   EXPECT_EQ(reason("shadows.near"), "");
+  EXPECT_EQ(reason("shadows.near_directions"), "");
   world_.destroy(far);
   EXPECT_TRUE(has_near_blocker(world_));
 }
