@@ -16,8 +16,9 @@ constexpr gpu::Format kGlowFormat = gpu::Format::rgba16_float;
 
 std::uint32_t glow_divisor(const KnobRegistry& knobs) { return knobs.value(kFogDivisor); }
 
-DrawProgram reduce_program(std::uint32_t divisor) {
-  return {shaders::fog::reduce_frag, {{"kDivisor", static_cast<std::int32_t>(divisor)}}};
+DrawProgram reduce_program(bool orthographic, std::uint32_t divisor) {
+  return {shaders::fog::reduce_frag,
+          {{"kOrthographic", orthographic ? 1u : 0u}, {"kDivisor", static_cast<std::int32_t>(divisor)}}};
 }
 DrawProgram blur_program() { return {shaders::fog::blur_frag}; }
 DrawProgram apply_program(bool orthographic, std::uint32_t divisor) {
@@ -26,15 +27,14 @@ DrawProgram apply_program(bool orthographic, std::uint32_t divisor) {
           gpu::BlendMode::premultiplied};
 }
 
-/// LitOutput blurred at 1/divisor of its size.
-ImageRef add_glow_passes(FrameBuilder& frame, std::uint32_t divisor, float radius) {
-  ImageRef source = frame.get<LitOutput>().color;
-  if (divisor > 1) {
-    DrawPass reduce(frame, "fog_reduce", reduce_program(divisor));
-    reduce.read("lit_image", source);
-    source = reduce.target(create_view_image(frame, "fog_reduced", kGlowFormat, divisor));
-    reduce.draw_triangle();
-  }
+/// The light of LitOutput that fog scatters, blurred at 1/divisor of its size.
+ImageRef add_glow_passes(FrameBuilder& frame, const shaders::FogConstants& fog, std::uint32_t divisor, float radius) {
+  DrawPass reduce(frame, "fog_reduce", reduce_program(frame.view().camera.orthographic, divisor));
+  reduce.uniform("fog", fog);
+  reduce.read("depth_image", front_depth(frame));
+  reduce.read("lit_image", frame.get<LitOutput>().color);
+  const ImageRef source = reduce.target(create_view_image(frame, "fog_reduced", kGlowFormat, divisor));
+  reduce.draw_triangle();
   const GlowKernel kernel = glow_kernel(frame.view().height, divisor, radius);
   const auto blurred = [&](const char* name, glm::ivec2 direction, ImageRef from) {
     DrawPass blur(frame, name, blur_program());
@@ -53,18 +53,21 @@ void list_fog_pipelines(const KnobRegistry& knobs, PipelineList& list) {
   const gpu::Format formats[] = {kGlowFormat};
   const auto add = [&](const DrawProgram& program) { list.push_back(pipeline_desc(program, "fog", formats)); };
   const std::uint32_t divisor = glow_divisor(knobs);
-  if (divisor > 1) add(reduce_program(divisor));
   add(blur_program());
-  for (const bool orthographic : {false, true}) add(apply_program(orthographic, divisor));
+  for (const bool orthographic : {false, true}) {
+    add(reduce_program(orthographic, divisor));
+    add(apply_program(orthographic, divisor));
+  }
 }
 
 void add_fog_passes(FrameBuilder& frame, const Fog& fog) {
   const std::uint32_t divisor = glow_divisor(frame.knobs());
-  const ImageRef glow = add_glow_passes(frame, divisor, static_cast<float>(frame.knobs().value(kFogRadius)));
+  const shaders::FogConstants constants{vec4(fog.color * frame.view().light_scale, 0.0f), fog.density, kFogForwardShare,
+                                        fog.sky_distance_m};
+  const ImageRef glow = add_glow_passes(frame, constants, divisor, static_cast<float>(frame.knobs().value(kFogRadius)));
   LitOutput& lit = frame.get<LitOutput>();
   DrawPass pass(frame, "fog_apply", apply_program(frame.view().camera.orthographic, divisor));
-  pass.uniform("fog", shaders::FogConstants{vec4(fog.color * frame.view().light_scale, 0.0f), fog.density,
-                                            kFogForwardShare, fog.sky_distance_m});
+  pass.uniform("fog", constants);
   pass.read("depth_image", front_depth(frame));
   pass.read("glow_image", glow, Sampling::linear);
   lit.color = pass.target(lit.color, gpu::LoadOp::load);  // the fog is blended over the light

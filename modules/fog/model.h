@@ -30,8 +30,8 @@ struct GlowKernel {
 /// standard deviations.
 [[nodiscard]] GlowKernel glow_kernel(std::uint32_t height, std::uint32_t divisor, float radius);
 
-/// The whole effect in double: the full picture blurred with a kernel cut at 6 standard deviations, then the fog of
-/// shaders/fog/apply.frag.glsl. `lit`: width · height · 4 floats before fog; `distance_m`: length of the path through
+/// The whole effect in double: fog as in shaders/fog/apply.frag.glsl, with the glow summed over all pairs of pixels
+/// within 6 standard deviations. `lit`: width · height · 4 floats before fog; `distance_m`: length of the path through
 /// the fog, one per pixel, infinite for sky. most_light: of scattered light, as the frame's image can hold it. Returns
 /// the picture with fog, same layout, alpha 1.
 [[nodiscard]] std::vector<double> fog_reference(std::span<const float> lit, std::span<const double> distance_m,

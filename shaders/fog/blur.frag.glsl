@@ -14,16 +14,16 @@ layout(location = 0) out vec4 out_light;
 void main() {
   ivec2 center = ivec2(gl_FragCoord.xy);
   ivec2 last = textureSize(image, 0) - 1;
-  vec3 sum = texelFetch(image, center, 0).rgb;
+  vec4 sum = texelFetch(image, center, 0);
   float total = 1.0;
   // The loop tests its condition at the end: software devices run the body once more when a test at the start fails.
   int i = 1;
   if (c.taps > 0) do {
       float distance = float(i) * c.inverse_sigma;
       float weight = exp(-0.5 * distance * distance);
-      sum += weight * (texelFetch(image, clamp(center - i * c.direction, ivec2(0), last), 0).rgb +
-                       texelFetch(image, clamp(center + i * c.direction, ivec2(0), last), 0).rgb);
+      sum += weight * (texelFetch(image, clamp(center - i * c.direction, ivec2(0), last), 0) +
+                       texelFetch(image, clamp(center + i * c.direction, ivec2(0), last), 0));
       total += 2.0 * weight;
     } while (++i <= c.taps);
-  out_light = vec4(sum / total, 1.0);
+  out_light = sum / total;
 }

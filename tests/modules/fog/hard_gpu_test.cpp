@@ -37,7 +37,8 @@ class FogHard : public FogStageTest {
     stage.set("fog.resolution", "full");
     stage.set("fog.radius", "6");
     const double most_light = kMostLight / static_cast<double>(light_scale(scene_brightness(stage.world)));
-    expect_picture(stage.draw(), oracle_picture(clear, wall_distances(stage.view, depth_m), fog, most_light));
+    expect_picture(stage.draw(),
+                   twin_picture(clear, wall_distances(stage.view, depth_m), fog, 1, 6.0, most_light).light);
   }
   static void expect_sane(FogStage& stage) {
     std::size_t wrong = 0;
@@ -144,6 +145,33 @@ TEST_F(FogHard, edges_of_depth_stay_sharp_while_the_glow_is_small) {
       ++dark;
     }
     EXPECT_GT(dark, 50u);
+  }
+}
+
+// A bright square near the camera, before a far dark wall: fog scatters little of the square's light on its short way,
+// so the wall beside it has no bright rim.
+// Hard case: fog.rim
+TEST_F(FogHard, near_bright_things_have_no_rim_before_a_far_wall) {
+  FogStage stage;
+  stage.glow({0.013, 0.007, -0.5}, 0.06f, vec3(4.0f, 2.0f, 1.0f));
+  stage.glow({0.0, 0.0, -50.0}, 100.0f, vec3(0.01f));
+  const LightMap clear = stage.draw_clear();
+  const std::vector<double> distances = stage.distances();
+  const Fog fog{0.05f, vec3(0.0f)};
+  const std::vector<dvec3> exact = oracle_picture(clear, distances, fog);
+  stage.put(fog);
+  for (const char* resolution : {"full", "half", "quarter"}) {
+    stage.set("fog.resolution", resolution);
+    const LinearPicture drawn = stage.draw();
+    double most = 0.0, most_exact = 0.0;
+    for (std::size_t i = 0; i < distances.size(); ++i) {
+      if (distances[i] < 10.0) continue;
+      most = std::max(most, static_cast<double>(drawn.rgba[4 * i]));
+      most_exact = std::max(most_exact, exact[i].r);
+    }
+    // The square loses 1 − exp(−0.05 · 0.5) of its light, of which half glows, and half of that beside its edge.
+    EXPECT_LT(most, 4.0 * 0.0247 * 0.5 * 0.6 + 0.01) << resolution;
+    EXPECT_GT(most, 0.5 * most_exact) << resolution;
   }
 }
 

@@ -59,8 +59,10 @@ struct LightMap {
   return light;
 }
 
-/// The glow at a pixel: the mean of the square of pixels within 7 standard deviations, weighted by the Gaussian.
-[[nodiscard]] inline dvec3 glow_at(const LightMap& light, long x, long y) {
+/// The glow at a pixel: the mean of the square of pixels within 7 standard deviations, weighted by the Gaussian, of the
+/// light that is scattered before it is as near as the pixel's surface. scattered: share of a pixel's light, one texel
+/// each.
+[[nodiscard]] inline dvec3 glow_at(const LightMap& light, const LightMap& scattered, long x, long y) {
   const double sigma = kGlowSigma * light.height;
   const long reach = static_cast<long>(std::ceil(7.0 * sigma));
   dvec3 sum(0.0);
@@ -68,26 +70,38 @@ struct LightMap {
   for (long dy = -reach; dy <= reach; ++dy)
     for (long dx = -reach; dx <= reach; ++dx) {
       const double weight = std::exp(-0.5 * static_cast<double>(dx * dx + dy * dy) / (sigma * sigma));
-      sum += weight * light.at(x + dx, y + dy);
+      sum += weight * light.at(x + dx, y + dy) * glm::min(scattered.at(x + dx, y + dy), scattered.at(x, y));
       total += weight;
     }
   return sum / total;
 }
 
-[[nodiscard]] inline dvec3 fog_source(const Fog& fog, const dvec3& glow, double most_light = kMostLight) {
-  return glm::min(dvec3(fog.color) + kForwardShare * glow, dvec3(most_light));
+/// The shares of light that fog scatters on paths of these lengths: what arrives of a source of 1 in all of the fog.
+[[nodiscard]] inline LightMap scattered_shares(const LightMap& light, std::span<const double> distance_m,
+                                               const Fog& fog) {
+  LightMap shares{light.width, light.height, {}};
+  for (const double path_m : distance_m)
+    shares.texels.push_back(integrate_fog(dvec3(0.0), dvec3(1.0), static_cast<double>(fog.density), path_m));
+  return shares;
+}
+
+/// What fog adds to a pixel's light.
+[[nodiscard]] inline dvec3 added_light(const Fog& fog, const dvec3& scattered, const dvec3& glow,
+                                       double most_light = kMostLight) {
+  return glm::min(scattered * dvec3(fog.color) + kForwardShare * glow, scattered * most_light);
 }
 
 /// The picture with fog, by the oracle. distance_m: one per pixel, infinite for the sky. most_light: what the picture's
 /// half floats hold.
 [[nodiscard]] inline std::vector<dvec3> oracle_picture(const LightMap& light, std::span<const double> distance_m,
                                                        const Fog& fog, double most_light = kMostLight) {
+  const LightMap scattered = scattered_shares(light, distance_m, fog);
   std::vector<dvec3> fogged;
   for (std::uint32_t y = 0; y < light.height; ++y)
     for (std::uint32_t x = 0; x < light.width; ++x) {
       const std::size_t i = std::size_t{y} * light.width + x;
-      fogged.push_back(integrate_fog(light.texels[i], fog_source(fog, glow_at(light, x, y), most_light),
-                                     static_cast<double>(fog.density), distance_m[i]));
+      fogged.push_back(integrate_fog(light.texels[i], dvec3(0.0), static_cast<double>(fog.density), distance_m[i]) +
+                       added_light(fog, scattered.texels[i], glow_at(light, scattered, x, y), most_light));
     }
   return fogged;
 }
@@ -135,6 +149,22 @@ struct LightMap {
   return result;
 }
 
+/// A filtered texel, and the contrast of the four texels that it is made of.
+struct Filtered {
+  dvec3 light;
+  dvec3 contrast;
+};
+
+[[nodiscard]] inline Filtered filtered(const LightMap& small, std::uint32_t x, std::uint32_t y, std::uint32_t divisor) {
+  const double at_x = (x + 0.5) / divisor - 0.5, at_y = (y + 0.5) / divisor - 0.5;
+  const long left = static_cast<long>(std::floor(at_x)), top = static_cast<long>(std::floor(at_y));
+  const double right_share = at_x - static_cast<double>(left), low_share = at_y - static_cast<double>(top);
+  const dvec3 &a = small.at(left, top), &b = small.at(left + 1, top);
+  const dvec3 &c = small.at(left, top + 1), &d = small.at(left + 1, top + 1);
+  return {glm::mix(glm::mix(a, b, right_share), glm::mix(c, d, right_share), low_share),
+          glm::max(glm::max(a, b), glm::max(c, d)) - glm::min(glm::min(a, b), glm::min(c, d))};
+}
+
 /// A picture with fog as the passes draw it. slack: how far the filtering of the glow may be off at each pixel. Devices
 /// place a sample in steps of 1/256 of a texel in each direction.
 struct TwinPicture {
@@ -142,26 +172,33 @@ struct TwinPicture {
   std::vector<dvec3> slack;
 };
 
-/// The picture with fog as the passes draw it with these values of the knobs.
+/// The picture with fog as the passes draw it with these values of the knobs. Its glow is at least the oracle's: of all
+/// neighbours together it takes the lesser of what they lose and of what they would lose at the pixel's distance.
 [[nodiscard]] inline TwinPicture twin_picture(const LightMap& light, std::span<const double> distance_m, const Fog& fog,
-                                              std::uint32_t divisor, double radius) {
+                                              std::uint32_t divisor, double radius, double most_light = kMostLight) {
   const double sigma = kGlowSigma * light.height / divisor;
-  const LightMap small = divisor > 1 ? reduced(light, divisor) : light;
-  const LightMap glow = blurred(blurred(small, 1, 0, sigma, radius), 0, 1, sigma, radius);
+  LightMap lost{light.width, light.height, {}}, whole = lost;  // light that is scattered, mean of the light's channels
+  std::vector<double> scattered;
+  for (std::size_t i = 0; i < light.texels.size(); ++i) {
+    scattered.push_back(-std::expm1(-static_cast<double>(fog.density) * std::min(distance_m[i], kLongestPath_m)));
+    lost.texels.push_back(light.texels[i] * scattered[i]);
+    whole.texels.emplace_back((light.texels[i].r + light.texels[i].g + light.texels[i].b) / 3.0);
+  }
+  const auto spread = [&](const LightMap& map) {
+    return blurred(blurred(reduced(map, divisor), 1, 0, sigma, radius), 0, 1, sigma, radius);
+  };
+  const LightMap glow = spread(lost), all = spread(whole);
   TwinPicture twin;
   for (std::uint32_t y = 0; y < light.height; ++y)
     for (std::uint32_t x = 0; x < light.width; ++x) {
-      const double at_x = (x + 0.5) / divisor - 0.5, at_y = (y + 0.5) / divisor - 0.5;
-      const long left = static_cast<long>(std::floor(at_x)), top = static_cast<long>(std::floor(at_y));
-      const double right_share = at_x - static_cast<double>(left), low_share = at_y - static_cast<double>(top);
-      const dvec3 &a = glow.at(left, top), &b = glow.at(left + 1, top);
-      const dvec3 &c = glow.at(left, top + 1), &d = glow.at(left + 1, top + 1);
-      const dvec3 seen = glm::mix(glm::mix(a, b, right_share), glm::mix(c, d, right_share), low_share);
-      const dvec3 contrast = glm::max(glm::max(a, b), glm::max(c, d)) - glm::min(glm::min(a, b), glm::min(c, d));
+      const Filtered seen = filtered(glow, x, y, divisor), of_all = filtered(all, x, y, divisor);
       const std::size_t i = std::size_t{y} * light.width + x;
-      const double kept = std::exp(-static_cast<double>(fog.density) * std::min(distance_m[i], kLongestPath_m));
-      twin.light.push_back(kept * light.texels[i] + (1.0 - kept) * fog_source(fog, seen));
-      twin.slack.push_back((1.0 - kept) * kForwardShare * contrast * (divisor > 1 ? 2.0 / 256.0 : 0.0));
+      const double mean = (seen.light.r + seen.light.g + seen.light.b) / 3.0;
+      const double nearer = std::min(scattered[i] * of_all.light.r * (1.0 + 1.0 / 256.0), mean) / std::max(mean, 1e-30);
+      const dvec3 added = added_light(fog, dvec3(scattered[i]), nearer * seen.light, most_light);
+      twin.light.push_back((1.0 - scattered[i]) * light.texels[i] + added);
+      const dvec3 of_ratio = scattered[i] * of_all.contrast.r * seen.light / std::max(mean, 1e-30);
+      twin.slack.push_back(kForwardShare * (2.0 * seen.contrast + of_ratio) * (divisor > 1 ? 2.0 / 256.0 : 0.0));
     }
   return twin;
 }
