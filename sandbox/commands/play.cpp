@@ -154,15 +154,19 @@ Status run_play(const CommandContext& context) {
                              .scale = options.scale,
                              .panel = settings.panel || environment_text("GLOAM_PANEL") == "1",
                              .script = std::move(*script)};
+  const auto keep = [&] {
+    if (const auto [width, height] = window.desktop_size(); width > 0 && !window.is_full_screen()) {
+      settings.width = width;
+      settings.height = height;
+    }
+    settings.scale = lasting.scale;
+    settings.panel = lasting.panel;
+    save_play_settings(settings_path, settings, context.log);
+  };
+  lasting.keep = keep;
   GLOAM_TRY(play_scenes({options, context.console, context.log}, window, lasting));
   if (options.frames > 0 && !options.quiet) context.console.print(lasting.figures.text() + "\n");
-  if (const auto [width, height] = window.desktop_size(); width > 0 && !window.is_full_screen()) {
-    settings.width = width;
-    settings.height = height;
-  }
-  settings.scale = lasting.scale;
-  settings.panel = lasting.panel;
-  save_play_settings(settings_path, settings, context.log);
+  keep();
   return {};
 }
 

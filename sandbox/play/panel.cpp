@@ -16,6 +16,14 @@
 #include "sandbox/session/program_knobs.h"
 
 namespace gloam {
+namespace {
+
+/// The file of changed knobs for --config. kind: "" or ".unsaved".
+std::string config_path(const std::string& scene, const char* kind) {
+  return "out/" + scene_stem(scene) + kind + ".config.json";
+}
+
+}  // namespace
 
 PlayPanel::PlayPanel(Session& session, double scale, bool shown)
     : session_(session),
@@ -50,8 +58,8 @@ Status PlayPanel::update(WindowInput& input, const PanelFrame& frame, ViewSettin
   Renderer& renderer = *session_.renderer;
   const FrameReport report = renderer.report();
   times_.add(frame.dt_s * 1e3, report);
-  // Escape ends text input; only the next Escape leaves the program.
-  const bool typing = panel_->wants_keyboard();
+  // Escape ends text input and closes lists; only the next Escape leaves the program.
+  const bool typing = panel_->wants_keyboard(), busy = panel_->is_busy();
   const auto show = [&](const std::string& visualizer) -> Status {
     GLOAM_TRY(renderer.check_visualizer(session_.world, visualizer));
     GLOAM_TRY(check_shown_live(renderer, visualizer));
@@ -81,6 +89,7 @@ Status PlayPanel::update(WindowInput& input, const PanelFrame& frame, ViewSettin
     input.drag_x = input.drag_y = input.orbit_x = input.orbit_y = input.wheel = 0.0;
     input.clicked = input.grabbed = input.look_at = false;
   }
+  if (busy) input.leave = false;
   if (typing || panel_->wants_keyboard()) {
     input.forward = input.right = input.up = 0.0;
     input.fast = input.leave = input.look_at = false;
@@ -101,7 +110,12 @@ void PlayPanel::show(WindowInput& input, const PanelFrame& frame, PanelContent& 
       .wipe = controls.wipe,
       .set_wipe = controls.set_wipe};
   if (controls.set_wipe) content.budgets = &budgets;
+  const std::string before = config_text(session_.renderer->knobs());
   panel_->update(input.panel, frame, content);
+  if (config_text(session_.renderer->knobs()) != before) {
+    unsaved_ = true;
+    asked_to_leave_ = false;
+  }
   budgets_.end();
 }
 
@@ -181,11 +195,34 @@ void PlayPanel::tell(std::string message, bool urgent) {
   shown_ |= urgent;
 }
 
+Status PlayPanel::write_config(const std::string& path) const {
+  GLOAM_TRY(make_folder_of(path));
+  return write_file(path, config_text(session_.renderer->knobs()));
+}
+
 void PlayPanel::save_config(const std::string& scene) {
-  const std::string path = "out/" + scene_stem(scene) + ".config.json";
-  Status written = make_folder_of(path);
-  if (written.ok()) written = write_file(path, config_text(session_.renderer->knobs()));
+  const std::string path = config_path(scene, "");
+  const Status written = write_config(path);
   said_ = written.ok() ? "wrote " + path : written.error().message;
+  unsaved_ = unsaved_ && !written.ok();
+}
+
+bool PlayPanel::may_leave(const std::string& scene) {
+  if (!unsaved_ || asked_to_leave_) return true;
+  asked_to_leave_ = true;
+  tell("Changed knobs are not saved. Escape again leaves and writes them to " + config_path(scene, ".unsaved"), true);
+  return false;
+}
+
+void PlayPanel::keep_changes(const std::string& scene, LogSink& log) {
+  if (!unsaved_) return;
+  const std::string path = config_path(scene, ".unsaved");
+  const Status written = write_config(path);
+  if (written.ok())
+    log.info("wrote " + path + ": knobs that were changed and not saved");
+  else
+    log.warning(written.error().message);
+  unsaved_ = false;
 }
 
 std::string PlayPanel::command_line(const PlayControls& controls, const ViewSettings& view) const {

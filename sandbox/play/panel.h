@@ -53,6 +53,12 @@ class PlayPanel {
   /// Shows a message at the top of the panel until the next one. urgent: also shows the panel if it is hidden.
   void tell(std::string message, bool urgent);
 
+  /// Whether the user, who asks to leave, may: not the first time after knobs were changed in the panel and not saved.
+  /// Then a message says so.
+  [[nodiscard]] bool may_leave(const std::string& scene);
+  /// Writes knobs that were changed in the panel and not saved to out/<scene>.unsaved.config.json.
+  void keep_changes(const std::string& scene, LogSink& log);
+
   [[nodiscard]] bool shown() const { return shown_; }
   /// Changes the factor on the size of text.
   void set_scale(double scale);
@@ -69,6 +75,7 @@ class PlayPanel {
   void pick(const WindowInput& input, const ViewSettings& view, double scale);
   void set_lens(float focus_m, float f_number);
   void save_config(const std::string& scene);
+  [[nodiscard]] Status write_config(const std::string& path) const;
   [[nodiscard]] std::string command_line(const PlayControls& controls, const ViewSettings& view) const;
 
   Session& session_;
@@ -84,6 +91,8 @@ class PlayPanel {
   std::vector<std::string> picked_;
   float picked_m_ = 0.0f;  ///< PanelScene::picked_m
   std::string said_;
+  bool unsaved_ = false;         ///< knobs were changed in the panel since they were saved
+  bool asked_to_leave_ = false;  ///< since then
   PanelNotice notice_;
   std::vector<VisualizerInfo> visualizers_;
   std::unique_ptr<Panel> panel_;

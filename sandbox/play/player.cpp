@@ -68,7 +68,8 @@ Status Player::run() {
     reload_shaders();
     panel_.set_scale(window.content_scale());
     GLOAM_TRY(panel_.update(input, {window.width(), window.height(), frame_s_}, settings_, scale_, controls()));
-    if (window.should_close() || input.leave) break;
+    if (window.should_close() || (input.leave && panel_.may_leave(options_.scene))) break;
+    keep_settings();
     GLOAM_TRY(obey(input));
     if (!next_scene_.empty()) break;
     drop_view_without_its_knob();
@@ -79,9 +80,18 @@ Status Player::run() {
     shown_ = *drawn;
     if (shown_) GLOAM_TRY(count_shown(frames++ == 0));
   }
+  panel_.keep_changes(options_.scene, log_);
   lasting_.scale = scale_.setting();
   lasting_.panel = panel_.shown();
   return session_.renderer->wait();
+}
+
+/// Tells the owner about changed settings while the program runs, so that they outlive its end by a signal.
+void Player::keep_settings() {
+  if (lasting_.scale == scale_.setting() && lasting_.panel == panel_.shown()) return;
+  lasting_.scale = scale_.setting();
+  lasting_.panel = panel_.shown();
+  if (lasting_.keep) lasting_.keep();
 }
 
 PlayControls Player::controls() {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,7 @@ class Player {
     double scale = 0.0;  ///< ResolutionScale::setting
     bool panel = false;  ///< the panel is shown
     InputScript script;
+    std::function<void()> keep = {};  ///< called when `scale` or `panel` has changed
   };
 
   /// The arguments must outlive it. session: with its scene.
@@ -52,6 +54,7 @@ class Player {
   [[nodiscard]] PlayControls controls();
   [[nodiscard]] WindowInput poll();
   void play_script();
+  void keep_settings();
   [[nodiscard]] Status obey(const WindowInput& input);
   void show_camera(std::uint32_t number);
   void pause(bool paused);

@@ -115,11 +115,22 @@ bool Gui::wants_keyboard() const {
   return ImGui::GetIO().WantCaptureKeyboard || ImGui::GetIO().WantTextInput;
 }
 
+bool Gui::is_busy() const {
+  ImGui::SetCurrentContext(context_);
+  return ImGui::IsAnyItemActive() ||
+         ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+}
+
 const ImDrawData& Gui::draw_data() const {
   ImGui::SetCurrentContext(context_);
   const ImDrawData* data = ImGui::GetDrawData();
   GLOAM_ASSERT(data != nullptr, "there is draw data from the first frame on");
   return *data;
+}
+
+void end_list() {
+  if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) ImGui::CloseCurrentPopup();
+  ImGui::EndCombo();
 }
 
 }  // namespace gloam

@@ -46,6 +46,8 @@ class Gui {
   /// Whether a widget used the mouse or keyboard input of the last frame, so that nothing else may use it.
   [[nodiscard]] bool wants_mouse() const;
   [[nodiscard]] bool wants_keyboard() const;
+  /// A list is open, or a widget is being dragged.
+  [[nodiscard]] bool is_busy() const;
   /// Draw data of the last frame, valid until the next. There must have been one.
   [[nodiscard]] const ImDrawData& draw_data() const;
   /// Valid as long as the context.
@@ -55,5 +57,8 @@ class Gui {
   ImGuiContext* context_ = nullptr;
   float scale_ = 1.0f;
 };
+
+/// Ends a list that BeginCombo() has opened. Escape closes it.
+void end_list();
 
 }  // namespace gloam

@@ -193,7 +193,7 @@ void Panel::show_scale(const PanelContent& content, const PanelFrame& frame) {
     if (ImGui::Selectable(name.c_str(), content.scale_setting == step)) content.set_scale(step);
     remember_widget("scale " + name);
   }
-  ImGui::EndCombo();
+  end_list();
 }
 
 void Panel::show_views(const PanelContent& content) {
@@ -216,7 +216,7 @@ void Panel::show_views(const PanelContent& content) {
       if (!info.argument.empty()) continue;
       if (const Status status = content.show(info.name); !status.ok()) fault_ = status.error().message;
     }
-    ImGui::EndCombo();
+    end_list();
   }
   if (shown != nullptr && !shown->argument.empty()) show_view_argument(content, *shown);
   if (!fault_.empty()) ImGui::TextWrapped("%s", fault_.c_str());
@@ -345,7 +345,7 @@ void Panel::show_knob_value(KnobRegistry& knobs, const Knob& knob) {
         if (ImGui::Selectable(knob.choices[i].c_str(), value == index)) set_knob_value(knobs, knob, index);
         remember_widget(knob.name + " " + knob.choices[i]);
       }
-      ImGui::EndCombo();
+      end_list();
       break;
     }
     case KnobWidget::integer_slider: {

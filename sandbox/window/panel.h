@@ -70,6 +70,7 @@ class Panel {
   /// See Gui; of the last update.
   [[nodiscard]] bool wants_mouse() const { return gui_.wants_mouse(); }
   [[nodiscard]] bool wants_keyboard() const { return gui_.wants_keyboard(); }
+  [[nodiscard]] bool is_busy() const { return gui_.is_busy(); }
   [[nodiscard]] const ImDrawData& draw_data() const { return gui_.draw_data(); }
   [[nodiscard]] FontTexels font() const { return gui_.font(); }
   [[nodiscard]] std::span<const PanelWidget> widgets() const { return widgets_; }

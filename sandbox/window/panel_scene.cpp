@@ -73,7 +73,7 @@ void Panel::show_scene(const PanelScene& scene) {
           scene.show_camera(static_cast<std::uint32_t>(i + 1));
         remember_widget("camera " + scene.cameras[i]);
       }
-      ImGui::EndCombo();
+      end_list();
     }
   }
   if (scene.has_camera) show_lens(scene);

@@ -88,6 +88,20 @@ class PlayTour(WindowCase):
         self.assertLess(sum(abs(a - b) for a, b in zip(albedo.pixel(600, 300), half.pixel(600, 300))), 12)
         self.assertEqual(self.settings(), {"width": 640, "height": 360, "scale": 0.5, "panel": True})
 
+    def test_escape_ends_what_is_open_and_asks_before_changes_are_lost(self):
+        run = self.start("builtin:shadows", "--size", "760x740", "--scale", "0.5", "--dt", "0", "--validate", size=(800, 760),
+                         script="key tab\nwait 2\nclick_widget view\nwait 2\nkey escape\nwait 2\n" + stop("list_closed") +
+                         "click_widget search\ntype shadows.mode\nwait 2\nclick_widget shadows.mode\nwait 2\n"
+                         "click_widget shadows.mode off\nwait 2\nmove 700 20\nkey escape\nwait 2\n" +
+                         stop("asked") + "key escape\nwait 50\nsay too_late\n")
+        run.photograph_at("list_closed")
+        run.photograph_at("asked")
+        self.assertTrue(self.settings()["panel"], "settings are kept while the program runs")
+        self.assertEqual(run.end(), "")
+        self.assertFalse((self.folder / "too_late").exists())
+        config = json.loads((self.folder / "out/shadows.unsaved.config.json").read_text(encoding="utf-8"))
+        self.assertEqual(config["shadows.mode"], "off")
+
     def test_the_camera_orbits_approaches_and_looks_at_points(self):
         run = self.start("builtin:shadows", *SIZE, "--dt", "0", "--validate",
                          script=stop("begin") + "move 120 80\nscroll 4\n" + stop("near") + "scroll -4\n" + stop("back") +
