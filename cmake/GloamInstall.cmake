@@ -19,8 +19,9 @@ endif()
 
 # Pairs: a pattern of target names that layers link, and the package of those targets.
 set(gloam_package_patterns
-  "^Threads::" Threads "^glm::" glm "^TBB::" TBB "^Vulkan::" Vulkan "^TinyGLTF::" TinyGLTF "^OpenMesh" OpenMesh
-  "^(OpenEXR|Imath)::" OpenEXR "^meshoptimizer::" meshoptimizer "^nlohmann_json::" nlohmann_json "^embree" embree)
+  "^Threads::" Threads "^glm::" glm "^TBB::" TBB "^Vulkan::" Vulkan "^OpenMesh" OpenMesh
+  "^(OpenEXR|Imath)::" OpenEXR "^meshoptimizer::" meshoptimizer "^draco::" draco
+  "^nlohmann_json::" nlohmann_json "^embree" embree)
 
 # gloam_find_packages(<variable> <target>…): the packages of these targets.
 function(gloam_find_packages variable)

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/math/types.h"
@@ -59,6 +60,14 @@ struct Accessor {
   std::uint32_t components = 1;  ///< 1…4, or 16 for a 4×4 matrix; 0: a type that the importer does not use
   bool normalized = false;
   std::optional<SparseSource> sparse;
+  /// Accessor of the file that this one was decoded for (KHR_draco_mesh_compression); kNone: it is one of the file.
+  std::uint32_t decoded_for = kNone;
+};
+
+/// Compressed content of a primitive (KHR_draco_mesh_compression).
+struct CompressedMesh {
+  std::uint32_t view = kNone;
+  std::vector<std::pair<std::string, std::uint32_t>> attributes;  ///< name and unique id in the compressed mesh
 };
 
 /// One primitive: its mode, its material and the accessor of each attribute.
@@ -80,6 +89,7 @@ struct PrimitiveSource {
     std::uint32_t normal = kNone;
   };
   std::vector<Target> targets;
+  std::optional<CompressedMesh> compressed;
 };
 
 struct MeshSource {
@@ -173,7 +183,7 @@ struct Document {
   std::vector<std::vector<std::uint8_t>> buffers;  ///< those of the file, then decompressed ones
   std::size_t file_buffers = 0;                    ///< number of buffers of the file
   std::vector<BufferView> views;
-  std::vector<Accessor> accessors;
+  std::vector<Accessor> accessors;  ///< those of the file, then those of decompressed meshes
   std::vector<MeshSource> meshes;
   std::vector<Material> materials;  ///< texture slots index `textures`
   std::vector<TextureSource> textures;

@@ -14,6 +14,7 @@
 #include "engine/scene/gltf/assets/animation_import.h"
 #include "engine/scene/gltf/assets/image_import.h"
 #include "engine/scene/gltf/assets/mesh_import.h"
+#include "engine/scene/gltf/buffers/compressed_meshes.h"
 #include "engine/scene/gltf/buffers/compressed_views.h"
 #include "engine/scene/gltf/entities/instancing.h"
 #include "engine/scene/gltf/entities/key_import.h"
@@ -58,6 +59,7 @@ Result<OpenScene> open_scene(const std::string& path, const std::string& directo
   document->warnings.insert(document->warnings.begin(), warnings.begin(), warnings.end());
   const auto check = [&]() -> Status {
     GLOAM_TRY(decompress_views(*document, file->bytes.size()));
+    GLOAM_TRY(decompress_meshes(*document, file->bytes.size()));
     GLOAM_TRY(check_document(*document, file->bytes.size()));
     GLOAM_TRY(check_node_tree(*document));
     GLOAM_TRY(expand_instances(*document));

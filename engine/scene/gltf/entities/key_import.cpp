@@ -12,9 +12,10 @@
 namespace gloam::gltf {
 namespace {
 
-constexpr std::array<std::string_view, 7> kOwnExtensions = {
-    "KHR_texture_transform", "KHR_mesh_quantization",   "KHR_materials_emissive_strength", "KHR_materials_transmission",
-    "KHR_materials_unlit",   "EXT_meshopt_compression", "EXT_mesh_gpu_instancing"};
+constexpr std::array<std::string_view, 9> kOwnExtensions = {
+    "KHR_texture_transform",      "KHR_mesh_quantization", "KHR_materials_emissive_strength",
+    "KHR_materials_transmission", "KHR_materials_unlit",   "KHR_draco_mesh_compression",
+    "EXT_meshopt_compression",    "EXT_texture_webp",      "EXT_mesh_gpu_instancing"};
 constexpr std::string_view kKeyPrefix = "gloam.";
 
 bool is_supported(const KeyRegistry& registry, std::string_view name) {

@@ -345,6 +345,7 @@ bool Scanner::open(bool is_array) {
     if (!frames_.empty()) frame.origin = frames_.back().is_array ? frames_.back().origin : frames_.back().rule;
     if (!is_array && frame.form == Form::object) frame.rules = rules_of(frame.type);
   }
+  if (frame.type == "compressed mesh") scan_.compressed_meshes = true;
   if (!is_array && frames_.size() == 2) {
     if (frame.type == "buffer") scan_.buffers.emplace_back();
     if (frame.type == "image") scan_.images.emplace_back();

@@ -43,6 +43,7 @@ struct JsonScan {
   SceneValue root_extensions;
   std::vector<ByteSource> buffers;  ///< one per buffer of the file
   std::vector<ByteSource> images;
+  bool compressed_meshes = false;  ///< a primitive has KHR_draco_mesh_compression
   std::vector<StrayKey> stray_keys;
   /// Place and fault of the first member that is missing, of a wrong type, out of range or given twice. It is not an
   /// error of scan_json, so that the caller can first refuse another version or a required extension.

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/gltf/parsing/material_read.h"
 
+// clang-format off: tinygltf_names.h comes first
+#include "engine/scene/gltf/parsing/tinygltf_names.h"
 #include <tiny_gltf.h>
+// clang-format on
 
 #include <algorithm>
 #include <cmath>

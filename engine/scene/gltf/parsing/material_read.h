@@ -4,6 +4,7 @@
 
 #include "engine/core/result.h"
 #include "engine/scene/assets.h"
+#include "engine/scene/gltf/parsing/tinygltf_names.h"
 
 namespace tinygltf {
 struct Material;

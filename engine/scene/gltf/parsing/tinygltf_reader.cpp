@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/gltf/parsing/tinygltf_reader.h"
 
+// clang-format off: tinygltf_names.h comes first
+#include "engine/scene/gltf/parsing/tinygltf_names.h"
 #include <tiny_gltf.h>
+// clang-format on
 
 #include <algorithm>
 #include <exception>
@@ -97,14 +100,43 @@ std::vector<std::size_t> spots_without_cone(const JsonScan& scan) {
   return spots;
 }
 
+/// The index accessor of a primitive that is hidden from tinygltf.
+struct HiddenIndices {
+  std::size_t mesh = 0;
+  std::size_t primitive = 0;
+  std::uint32_t accessor = kNone;
+};
+
+/// What tinygltf is not shown of a file, because it refuses it.
+struct Hidden {
+  std::vector<std::size_t> spots;      ///< lights without a `spot` object
+  std::vector<HiddenIndices> indices;  ///< of compressed meshes: their accessors have no buffer view
+};
+
+void hide_indices(nlohmann::json& root, Hidden& hidden) {
+  if (!root.contains("meshes")) return;
+  nlohmann::json& meshes = root["meshes"];
+  for (std::size_t m = 0; m < meshes.size(); ++m) {
+    nlohmann::json& primitives = meshes[m]["primitives"];
+    for (std::size_t p = 0; p < primitives.size(); ++p) {
+      if (!primitives[p].contains("indices")) continue;
+      const auto accessor = primitives[p]["indices"].get<std::uint32_t>();
+      if (root["accessors"][accessor].contains("bufferView")) continue;
+      hidden.indices.push_back({m, p, accessor});
+      primitives[p].erase("indices");
+    }
+  }
+}
+
 /// A copy of the file that tinygltf reads: fallback buffers, whose content is never read, hold one byte, because it
-/// wants a uri, and spots have a `spot` object.
-Container made_readable(const Container& file, const JsonScan& scan, const std::vector<std::size_t>& spots) {
+/// wants a uri, and spots have a `spot` object. Indices of compressed meshes are left out and noted in `hidden`.
+Container made_readable(const Container& file, const JsonScan& scan, Hidden& hidden) {
   nlohmann::json root = nlohmann::json::parse(file.json());
+  if (scan.compressed_meshes) hide_indices(root, hidden);
   for (std::size_t i = 0; i < scan.buffers.size(); ++i)
     if (scan.buffers[i].fallback)
       root["buffers"][i] = {{"byteLength", 1}, {"uri", "data:application/octet-stream;base64,AA=="}};
-  for (const std::size_t i : spots)
+  for (const std::size_t i : hidden.spots)
     root["extensions"]["KHR_lights_punctual"]["lights"][i]["spot"] = nlohmann::json::object();
   const std::string text = root.dump();
   std::vector<std::uint8_t> bytes;
@@ -259,6 +291,13 @@ PrimitiveSource translate(const tinygltf::Primitive& source) {
   primitive.more_influences = attribute(source.attributes, "JOINTS_1") != kNone;
   for (const std::map<std::string, int>& target : source.targets)
     primitive.targets.push_back({attribute(target, "POSITION"), attribute(target, "NORMAL")});
+  if (const auto found = source.extensions.find("KHR_draco_mesh_compression"); found != source.extensions.end()) {
+    CompressedMesh mesh;
+    mesh.view = index_of(found->second.Get("bufferView").GetNumberAsInt());
+    for (const auto& [name, id] : found->second.Get("attributes").Get<tinygltf::Value::Object>())
+      mesh.attributes.emplace_back(name, index_of(id.GetNumberAsInt()));
+    primitive.compressed = std::move(mesh);
+  }
   return primitive;
 }
 
@@ -348,9 +387,9 @@ void translate_all(const std::vector<From>& from, std::vector<To>& to) {
 Result<Document> read_document(const Container& file, const JsonScan& scan, const std::string& directory) {
   GLOAM_TRY(check_byte_sources(scan, file));
   const bool fallbacks = std::ranges::any_of(scan.buffers, &ByteSource::fallback);
-  const std::vector<std::size_t> spots = spots_without_cone(scan);
-  Result<tinygltf::Model> loaded = fallbacks || !spots.empty()
-                                       ? load_model(made_readable(file, scan, spots), scan, directory)
+  Hidden hidden{.spots = spots_without_cone(scan), .indices = {}};
+  Result<tinygltf::Model> loaded = fallbacks || scan.compressed_meshes || !hidden.spots.empty()
+                                       ? load_model(made_readable(file, scan, hidden), scan, directory)
                                        : load_model(file, scan, directory);
   if (!loaded) return loaded.error();
   tinygltf::Model& model = *loaded;
@@ -360,6 +399,8 @@ Result<Document> read_document(const Container& file, const JsonScan& scan, cons
   translate_all(model.bufferViews, document.views);
   translate_all(model.accessors, document.accessors);
   translate_all(model.meshes, document.meshes);
+  for (const HiddenIndices& indices : hidden.indices)
+    document.meshes[indices.mesh].primitives[indices.primitive].indices = indices.accessor;
   for (std::size_t i = 0; i < model.materials.size(); ++i) {
     const std::string where = place("material", i, model.materials[i].name);
     Result<Material> material = read_material(model.materials[i]);

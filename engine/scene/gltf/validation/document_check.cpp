@@ -98,7 +98,8 @@ Status check_attribute(const Document& document, const Attribute& attribute, std
                        const std::string& where) {
   if (attribute.accessor == kNone) return {};
   const Accessor& accessor = document.accessors[attribute.accessor];
-  const std::string name = std::string(attribute.name) + " (" + place("accessor", attribute.accessor) + ")";
+  const std::uint32_t number = accessor.decoded_for == kNone ? attribute.accessor : accessor.decoded_for;
+  const std::string name = std::string(attribute.name) + " (" + place("accessor", number) + ")";
   if (accessor.components < attribute.components_min || accessor.components > attribute.components_max)
     return fault_at(where, name + " must have " + std::to_string(attribute.components_max) + " components");
   const bool integer = accessor.component_type == ComponentType::u8 || accessor.component_type == ComponentType::u16;
