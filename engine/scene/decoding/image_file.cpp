@@ -17,6 +17,7 @@
 
 #include "engine/scene/decoding/jpeg_segments.h"
 #include "engine/scene/decoding/png_rows.h"
+#include "engine/scene/decoding/webp_file.h"
 #include "engine/scene/scene_path.h"
 
 // Zeroed memory: stb_image 2.27 reads tables that a damaged JPEG does not define.
@@ -139,8 +140,13 @@ bool decode_plain_png(std::span<const std::uint8_t> file, Image& image) {
 }  // namespace
 
 Result<ImageSize> image_size(std::span<const std::uint8_t> file) {
-  if (!is_png(file) && !is_jpeg(file)) return fault("is not a PNG or JPEG image");
+  if (!is_png(file) && !is_jpeg(file) && !is_webp(file)) return fault("is not a PNG, JPEG or WebP image");
   if (file.size() > INT_MAX) return fault("is an image file of more than 2 GiB");
+  if (is_webp(file)) {  // can_hold() does not apply: a flat image of any size takes less than 100 bytes
+    const Result<WebpSize> webp = webp_size(file);
+    if (!webp) return webp.error();
+    return ImageSize{webp->width, webp->height, 1};
+  }
   // Before stb_image sees the file: it reads tables that come before the header.
   const Result<std::uint32_t> scans = is_jpeg(file) ? count_jpeg_scans(file) : Result<std::uint32_t>(1u);
   if (!scans) return scans.error();
@@ -169,6 +175,10 @@ Result<Image> decode_image(std::span<const std::uint8_t> file) {
   image.width = size->width;
   image.height = size->height;
   image.rgba.resize(std::size_t{image.width} * image.height * 4);
+  if (is_webp(file)) {
+    if (decode_webp(file, {image.width, image.height}, image.rgba)) return image;
+    return fault("is a damaged image (its WebP data end early or are wrong)");
+  }
   if (is_png(file) && decode_plain_png(file, image)) return image;
   if (const std::string_view damage = is_png(file) ? png_chunk_fault(file) : std::string_view(); !damage.empty())
     return fault("is a damaged image (" + std::string(damage) + ")");

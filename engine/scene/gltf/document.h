@@ -104,6 +104,7 @@ struct ImageSource {
   std::string uri;
   std::uint32_t view = kNone;
   std::vector<std::uint8_t> bytes;
+  bool fallback = false;  ///< only for readers without EXT_texture_webp: it is neither opened nor decoded
 };
 
 struct TextureSource {

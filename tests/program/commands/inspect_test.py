@@ -115,7 +115,7 @@ class Inspect(ProgramCase):
 
     def test_a_missing_or_broken_image_of_blades_is_3(self):
         for name, content, says in (("absent.png", None, "absent.png\n"),
-                                    ("broken.png", "no picture", "broken.png: is not a PNG or JPEG image")):
+                                    ("broken.png", "no picture", "broken.png: is not a PNG, JPEG or WebP image")):
             scene = copy.deepcopy(TRIANGLE)
             scene["nodes"][0]["extras"] = {"gloam.grass.density": 100, "gloam.grass.texture": name}
             (self.folder / "lawn.gltf").write_text(json.dumps(scene))

@@ -88,7 +88,7 @@ class HardInput(ProgramCase):
     def test_a_picture_that_is_none_and_a_folder_in_the_place_of_a_file(self):
         (self.folder / "fake.png").write_text("not a picture")
         (self.folder / "folder.png").mkdir()
-        for uri, says in (("fake.png", "is not a PNG or JPEG"), ("folder.png", "is not a file"), ("/dev/zero", "leaves")):
+        for uri, says in (("fake.png", "is not a PNG, JPEG or WebP"), ("folder.png", "is not a file"), ("/dev/zero", "leaves")):
             scene = {**copy.deepcopy(TRIANGLE), "images": [{"uri": uri}]}
             self.refused(self.write("picture.gltf", scene), says)
         (self.folder / "scene.gltf").mkdir()

@@ -57,10 +57,10 @@ TEST(ImageFile, jpeg_comes_back_nearly) {
 
 // Hard case: scene.no_image
 TEST(ImageFile, other_formats_are_refused) {
-  EXPECT_EQ(decode_image({}).error().message, "is not a PNG or JPEG image");
+  EXPECT_EQ(decode_image({}).error().message, "is not a PNG, JPEG or WebP image");
   const std::string gif = "GIF89a\1\0\1\0\0\0\0;not an image at all";
   const Bytes bytes(gif.begin(), gif.end());
-  EXPECT_EQ(decode_image(bytes).error().message, "is not a PNG or JPEG image");
+  EXPECT_EQ(decode_image(bytes).error().message, "is not a PNG, JPEG or WebP image");
 }
 
 TEST(ImageFile, a_cut_file_is_refused_or_a_picture_at_every_length) {

@@ -159,8 +159,8 @@ std::vector<Broken> broken_texts() {
        {"scene 0: it lists node 0 twice"}},
       {"node_weights_without_targets", file(R"("nodes": [{"weights": [1]}])"), {"node 0: it has 1 weights"}},
       {"required_extension",
-       file(R"("extensionsRequired": ["KHR_draco_mesh_compression"])"),
-       {"\"KHR_draco_mesh_compression\" is required, but not supported"}},
+       file(R"("extensionsRequired": ["KHR_texture_basisu"])"),
+       {"\"KHR_texture_basisu\" is required, but not supported"}},
   };
 }
 
@@ -361,9 +361,9 @@ std::vector<Broken> broken_parts() {
       {"image_without_source", file_with_image(R"({"name": "wall"})"), {"image"}},
       {"image_of_other_kind",
        file_with_image(image_uri("image/gif", gif)),
-       {"image 0 \"wall\": is not a PNG or JPEG image"}},
+       {"image 0 \"wall\": is not a PNG, JPEG or WebP image"}},
       {"image_of_unknown_mime",
-       file_with_image(image_uri("image/webp", gif)),
+       file_with_image(image_uri("image/avif", gif)),
        {"image 0 \"wall\": its data URI is not image/png"}},
       {"image_that_is_no_image",
        file_with_image(image_uri("image/png", "\x89PNG\r\n\x1a\n and then nothing of use at all")),

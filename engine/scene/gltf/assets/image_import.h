@@ -22,7 +22,7 @@ struct EncodedImage {
 /// Images of a document, each file and each range of a buffer once.
 struct OpenedImages {
   std::vector<EncodedImage> images;
-  std::vector<std::uint32_t> by_index;  ///< index into `images`, by index in Document::images
+  std::vector<std::uint32_t> by_index;  ///< index into `images`, by index in Document::images; kNone: a fallback
 };
 
 /// Reads every image's file and header. Moves embedded bytes out of document.images. Input error with its place: an

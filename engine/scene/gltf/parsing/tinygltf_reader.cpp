@@ -100,6 +100,17 @@ std::vector<std::size_t> spots_without_cone(const JsonScan& scan) {
   return spots;
 }
 
+// tinygltf decodes a data URI of the second type, but not of the first.
+constexpr std::string_view kWebpUri = "data:image/webp;base64,";
+constexpr std::string_view kPngUri = "data:image/png;base64,";
+
+std::vector<std::size_t> embedded_webps(const JsonScan& scan) {
+  std::vector<std::size_t> images;
+  for (std::size_t i = 0; i < scan.images.size(); ++i)
+    if (scan.images[i].uri.starts_with(kWebpUri)) images.push_back(i);
+  return images;
+}
+
 /// The index accessor of a primitive that is hidden from tinygltf.
 struct HiddenIndices {
   std::size_t mesh = 0;
@@ -110,6 +121,7 @@ struct HiddenIndices {
 /// What tinygltf is not shown of a file, because it refuses it.
 struct Hidden {
   std::vector<std::size_t> spots;      ///< lights without a `spot` object
+  std::vector<std::size_t> webps;      ///< images in data URIs of a type that it does not know
   std::vector<HiddenIndices> indices;  ///< of compressed meshes: their accessors have no buffer view
 };
 
@@ -129,13 +141,17 @@ void hide_indices(nlohmann::json& root, Hidden& hidden) {
 }
 
 /// A copy of the file that tinygltf reads: fallback buffers, whose content is never read, hold one byte, because it
-/// wants a uri, and spots have a `spot` object. Indices of compressed meshes are left out and noted in `hidden`.
+/// wants a uri, spots have a `spot` object, and a WebP counts as a PNG. Indices of compressed meshes are left out and noted in `hidden`.
 Container made_readable(const Container& file, const JsonScan& scan, Hidden& hidden) {
   nlohmann::json root = nlohmann::json::parse(file.json());
   if (scan.compressed_meshes) hide_indices(root, hidden);
   for (std::size_t i = 0; i < scan.buffers.size(); ++i)
     if (scan.buffers[i].fallback)
       root["buffers"][i] = {{"byteLength", 1}, {"uri", "data:application/octet-stream;base64,AA=="}};
+  for (const std::size_t i : hidden.webps) {
+    std::string uri = root["images"][i]["uri"];
+    root["images"][i]["uri"] = uri.replace(0, kWebpUri.size(), kPngUri);
+  }
   for (const std::size_t i : hidden.spots)
     root["extensions"]["KHR_lights_punctual"]["lights"][i]["spot"] = nlohmann::json::object();
   const std::string text = root.dump();
@@ -350,6 +366,25 @@ NodeSource translate(const tinygltf::Node& source) {
   return node;
 }
 
+/// The texture's image; of EXT_texture_webp where it has both.
+TextureSource translate(const tinygltf::Texture& source) {
+  TextureSource texture{source.name, index_of(source.source), index_of(source.sampler)};
+  const auto found = source.extensions.find("EXT_texture_webp");
+  if (found != source.extensions.end() && found->second.Has("source"))
+    texture.image = index_of(found->second.Get("source").GetNumberAsInt());
+  return texture;
+}
+
+/// Marks images that are only what other readers take in place of a WebP.
+void mark_fallbacks(const std::vector<tinygltf::Texture>& textures, Document& document) {
+  std::vector<bool> read(document.images.size());
+  for (const TextureSource& texture : document.textures)
+    if (texture.image != kNone) read[texture.image] = true;
+  for (const tinygltf::Texture& texture : textures)
+    if (texture.source >= 0 && !read[index_of(texture.source)])
+      document.images[index_of(texture.source)].fallback = true;
+}
+
 SkinSource translate(const tinygltf::Skin& source) {
   return {source.name, indices_of(source.joints), index_of(source.inverseBindMatrices)};
 }
@@ -387,8 +422,9 @@ void translate_all(const std::vector<From>& from, std::vector<To>& to) {
 Result<Document> read_document(const Container& file, const JsonScan& scan, const std::string& directory) {
   GLOAM_TRY(check_byte_sources(scan, file));
   const bool fallbacks = std::ranges::any_of(scan.buffers, &ByteSource::fallback);
-  Hidden hidden{.spots = spots_without_cone(scan), .indices = {}};
-  Result<tinygltf::Model> loaded = fallbacks || scan.compressed_meshes || !hidden.spots.empty()
+  Hidden hidden{.spots = spots_without_cone(scan), .webps = embedded_webps(scan), .indices = {}};
+  const bool readable = !fallbacks && !scan.compressed_meshes && hidden.spots.empty() && hidden.webps.empty();
+  Result<tinygltf::Model> loaded = !readable
                                        ? load_model(made_readable(file, scan, hidden), scan, directory)
                                        : load_model(file, scan, directory);
   if (!loaded) return loaded.error();
@@ -409,11 +445,11 @@ Result<Document> read_document(const Container& file, const JsonScan& scan, cons
     if (has_transmission_texture(model.materials[i]))
       document.warnings.push_back(where + ": the texture of KHR_materials_transmission is not read, only its factor");
   }
-  for (const tinygltf::Texture& texture : model.textures)
-    document.textures.push_back({texture.name, index_of(texture.source), index_of(texture.sampler)});
+  translate_all(model.textures, document.textures);
   for (const tinygltf::Sampler& sampler : model.samplers)
     document.samplers.push_back({sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST, sampler.wrapS, sampler.wrapT});
   for (tinygltf::Image& image : model.images) document.images.push_back(translate(std::move(image)));
+  mark_fallbacks(model.textures, document);
   translate_all(model.skins, document.skins);
   translate_all(model.animations, document.animations);
   translate_all(model.cameras, document.cameras);

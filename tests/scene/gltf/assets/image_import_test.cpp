@@ -170,14 +170,14 @@ TEST(TextureImport, a_texture_read_as_colour_and_as_data_becomes_two) {
 
 TEST(TextureImport, a_texture_of_an_unknown_format_is_left_out_with_a_warning) {
   GltfText gltf;
-  gltf.set("extensionsUsed", R"(["EXT_texture_webp"])");
-  gltf.add("textures", R"({"extensions": {"EXT_texture_webp": {"source": 0}}})");
+  gltf.set("extensionsUsed", R"(["KHR_texture_basisu"])");
+  gltf.add("textures", R"({"extensions": {"KHR_texture_basisu": {"source": 0}}})");
   gltf.add("materials", R"({"normalTexture": {"index": 0}})");
   Import import;
   const SceneAssets& assets = assets_of(gltf, import);
   EXPECT_EQ(assets.materials[0].normal_texture.texture, kNone);
-  EXPECT_THAT(import.info().warnings, ElementsAre(HasSubstr("\"EXT_texture_webp\" is not known, it is ignored"),
-                                                  HasSubstr("texture 0: it has no PNG or JPEG image")));
+  EXPECT_THAT(import.info().warnings, ElementsAre(HasSubstr("\"KHR_texture_basisu\" is not known, it is ignored"),
+                                                  HasSubstr("texture 0: it has no PNG, JPEG or WebP image")));
 }
 
 TEST(TextureImport, a_third_set_of_coordinates_is_replaced_by_the_first_with_a_warning) {
