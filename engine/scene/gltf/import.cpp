@@ -127,6 +127,10 @@ Status build_world(OpenScene& scene, const std::string& directory, const ImportO
   Document& document = scene.document;
   const Result<SceneNodeOrder> nodes = select_scene(document, options.scene);
   if (!nodes) return nodes.error();
+  if (std::ranges::find(nodes->used, true) == nodes->used.end())
+    document.warnings.push_back(
+        (nodes->scene == kNone ? "the file" : place("scene", nodes->scene, document.scenes[nodes->scene].name)) +
+        " has no nodes, so there is nothing to draw");
   SceneAssets assets;
   Result<std::vector<Texture>> textures = import_textures(document);
   if (!textures) return textures.error();

@@ -131,6 +131,7 @@ TEST(WebpTexture, takes_the_image_of_the_extension_and_leaves_the_fallback_close
       if (!required) scene.add("images", R"({"uri": "absent.png"})");
       scene.add("textures", texture_of(kWebpSource + (required ? "" : R"(, "source": 1)")));
       scene.add("materials", R"({"emissiveTexture": {"index": 0}})");
+      scene.add("nodes", "{}");
       Import import;
       test::import_file(folder.write("scene.gltf", scene.text()), import);
       ASSERT_EQ(import.fault(), "");

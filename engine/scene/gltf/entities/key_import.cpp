@@ -7,6 +7,7 @@
 #include <set>
 #include <string_view>
 
+#include "engine/scene/gltf/parsing/undrawn_materials.h"
 #include "engine/scene/gltf/place.h"
 
 namespace gloam::gltf {
@@ -149,8 +150,12 @@ Status check_extensions(const JsonScan& scan, const KeyRegistry& registry, std::
       return Error{ErrorKind::input, "the extension " + in_quotes(name) + " is required, but not supported"};
   std::set<std::string> told;
   for (const std::string& name : scan.extensions_used)
-    if (!is_supported(registry, name) && told.insert(name).second)
+    if (!is_supported(registry, name) && !is_undrawn_extension(name) && told.insert(name).second)
       warnings.push_back("the extension " + in_quotes(name) + " is not known, it is ignored");
+  std::string undrawn;
+  for (const std::string_view name : undrawn_extensions(scan))
+    undrawn += (undrawn.empty() ? "drawn without " : ", ") + std::string(name);
+  if (!undrawn.empty()) warnings.push_back(undrawn);
   return {};
 }
 

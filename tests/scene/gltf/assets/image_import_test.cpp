@@ -26,7 +26,8 @@ std::string data_uri(const std::string& mime, const std::vector<std::uint8_t>& b
   return R"({"uri": "data:)" + mime + ";base64," + test::base64(bytes) + "\"}";
 }
 
-const SceneAssets& assets_of(const GltfText& gltf, Import& import) {
+const SceneAssets& assets_of(GltfText gltf, Import& import) {
+  gltf.add("nodes", "{}");
   test::import_text(gltf.text(), import);
   EXPECT_EQ(import.fault(), "");
   return import.world.resource<SceneAssets>();

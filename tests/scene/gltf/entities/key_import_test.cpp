@@ -218,6 +218,7 @@ TEST(KeyImport, a_finishers_fault_is_the_files) {
 // Hard case: scene.required_extension, scene.unknown_extension
 TEST(Extensions, unknown_ones_are_told_once_and_required_ones_refused) {
   GltfText gltf;
+  gltf.add("nodes", "{}");
   gltf.set("extensionsUsed", R"(["KHR_unheard_of", "KHR_unheard_of", "KHR_texture_transform", "KHR_lights_punctual"])");
   Import import;
   test::import_text(gltf.text(), import);
@@ -226,6 +227,44 @@ TEST(Extensions, unknown_ones_are_told_once_and_required_ones_refused) {
               ElementsAre("scene.gltf: the extension \"KHR_unheard_of\" is not known, it is ignored"));
   gltf.set("extensionsRequired", R"(["KHR_texture_transform", "KHR_texture_basisu"])");
   EXPECT_EQ(fault_of(gltf), "scene.gltf: the extension \"KHR_texture_basisu\" is required, but not supported");
+}
+
+// Hard case: scene.undrawn_extension
+TEST(Extensions, those_of_materials_that_are_not_drawn_are_named_in_one_line) {
+  GltfText gltf;
+  gltf.add("nodes", "{}");
+  gltf.set("extensionsUsed", R"(["KHR_materials_sheen", "KHR_materials_clearcoat", "KHR_materials_ior",
+                                 "KHR_materials_specular", "KHR_materials_volume", "KHR_materials_transmission"])");
+  gltf.add("materials", R"({"extensions": {"KHR_materials_sheen": {"sheenColorFactor": [0, 0.5, 0]},
+                            "KHR_materials_transmission": {"transmissionFactor": 0.5}}})");
+  gltf.add("materials", R"({"extensions": {"KHR_materials_clearcoat": {"clearcoatFactor": 1},
+                            "KHR_materials_sheen": {"sheenColorFactor": [1, 1, 1]}}})");
+  gltf.add("materials", R"({"extensions": {"KHR_materials_ior": {"ior": 1.33}}})");
+  gltf.add("materials", R"({"extensions": {"KHR_materials_specular": {"specularColorFactor": [1, 1, 0.5]}}})");
+  Import import;
+  test::import_text(gltf.text(), import);
+  ASSERT_EQ(import.fault(), "");
+  EXPECT_THAT(import.info().warnings,
+              ElementsAre("scene.gltf: drawn without KHR_materials_clearcoat, KHR_materials_ior, KHR_materials_sheen, "
+                          "KHR_materials_specular"));
+  gltf.set("extensionsRequired", R"(["KHR_materials_clearcoat"])");
+  EXPECT_EQ(fault_of(gltf), "scene.gltf: the extension \"KHR_materials_clearcoat\" is required, but not supported");
+}
+
+TEST(Extensions, those_of_materials_that_change_nothing_are_not_told) {
+  GltfText gltf;
+  gltf.add("nodes", "{}");
+  gltf.set("extensionsUsed", R"(["KHR_materials_sheen", "KHR_materials_clearcoat", "KHR_materials_ior",
+                                 "KHR_materials_specular", "KHR_materials_volume"])");
+  gltf.add("materials", R"({"extensions": {"KHR_materials_sheen": {"sheenColorFactor": [0, 0, 0]},
+      "KHR_materials_clearcoat": {"clearcoatFactor": 0, "clearcoatRoughnessFactor": 0.5}, "KHR_materials_ior":
+      {"ior": 1.5}, "KHR_materials_specular": {"specularFactor": 1, "specularColorFactor": [1, 1, 1]},
+      "KHR_materials_volume": {"attenuationDistance": 3}}})");
+  gltf.add("materials", R"({"extensions": {"KHR_materials_ior": {}, "KHR_materials_clearcoat": {}}})");
+  Import import;
+  test::import_text(gltf.text(), import);
+  ASSERT_EQ(import.fault(), "");
+  EXPECT_THAT(import.info().warnings, ::testing::IsEmpty());
 }
 
 }  // namespace

@@ -46,6 +46,24 @@ TEST(NodeImport, every_node_of_the_scene_is_an_entity_with_its_pose_parent_and_w
   EXPECT_EQ(import.world.resource<SceneNames>().name_of(child), "child");
 }
 
+// Hard case: scene.without_nodes
+TEST(NodeImport, a_scene_without_nodes_says_so) {
+  GltfText gltf;
+  Import library;
+  load(gltf, library);
+  EXPECT_THAT(library.info().warnings, ElementsAre("scene.gltf: the file has no nodes, so there is nothing to draw"));
+  gltf.add("nodes", "{}");
+  gltf.add("scenes", R"({"name": "stage"})");
+  gltf.add("scenes", R"({"nodes": [0]})");
+  Import empty;
+  load(gltf, empty);
+  EXPECT_THAT(empty.info().warnings,
+              ElementsAre("scene.gltf: scene 0 \"stage\" has no nodes, so there is nothing to draw"));
+  Import other;
+  load(gltf, other, {.animation = {}, .scene = 1});
+  EXPECT_THAT(other.info().warnings, IsEmpty());
+}
+
 TEST(NodeImport, only_the_chosen_scene_becomes_entities) {
   GltfText gltf;
   for (int i = 0; i < 3; ++i) gltf.add("nodes", "{}");
