@@ -6,7 +6,9 @@
 
 #include <string>
 
+#include "tests/support/draco_files.h"
 #include "tests/support/gltf_files.h"
+#include "tests/support/webp_files.h"
 
 namespace gloam::fuzz {
 namespace {
@@ -128,13 +130,49 @@ GltfText compressed() {
   return gltf;
 }
 
+/// Two squares of KHR_draco_mesh_compression, one for each of its methods, and pictures of EXT_texture_webp.
+GltfText draco_and_webp() {
+  GltfText gltf;
+  const std::vector<float> positions = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 2, 0, 1, 2, 1, 1};
+  const std::vector<float> normals = {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0};
+  const std::vector<std::uint16_t> uv = {0, 0, 65535, 0, 0, 65535, 65535, 65535, 0, 0, 65535, 0};
+  const test::PlainAttribute attributes[] = {test::plain_attribute("POSITION", 2, 5126, 3, positions),
+                                             test::plain_attribute("NORMAL", 0, 5126, 3, normals),
+                                             test::plain_attribute("TEXCOORD_0", 1, 5123, 2, uv, true)};
+  const std::uint32_t indices[] = {0, 1, 2, 2, 1, 3, 1, 4, 3, 3, 4, 5};
+  for (const test::DracoSettings& settings :
+       {test::DracoSettings{.position_bits = 11}, test::DracoSettings{.edgebreaker = false, .with_metadata = true}}) {
+    const std::string accessor = text_of(gltf.add("accessors", R"({"componentType": 5126, "count": 6, "type": "VEC3"})"));
+    const std::string uvs =
+        text_of(gltf.add("accessors", R"({"componentType": 5123, "normalized": true, "count": 6, "type": "VEC2"})"));
+    const std::string list = text_of(gltf.add("accessors", R"({"componentType": 5123, "count": 12, "type": "SCALAR"})"));
+    const std::string view = text_of(gltf.view_of(test::encode_draco(attributes, indices, settings)));
+    gltf.mesh("\"POSITION\": " + accessor + ", \"NORMAL\": " + accessor + ", \"TEXCOORD_0\": " + uvs,
+              R"(, "material": 0, "indices": )" + list +
+                  R"(, "extensions": {"KHR_draco_mesh_compression": {"bufferView": )" + view +
+                  R"(, "attributes": {"POSITION": 2, "NORMAL": 0, "TEXCOORD_0": 1}}})");
+  }
+  Bytes pixels(9 * 7 * 4);
+  for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = static_cast<std::uint8_t>(i * i / 3);
+  for (const float quality : {-1.0f, 70.0f}) {
+    const std::string view = text_of(gltf.view_of(test::encode_webp(9, 7, pixels, quality)));
+    const int image = gltf.add("images", R"({"mimeType": "image/webp", "bufferView": )" + view + "}");
+    gltf.add("textures", R"({"extensions": {"EXT_texture_webp": {"source": )" + text_of(image) + "}}}");
+  }
+  gltf.add("materials", R"({"emissiveTexture": {"index": 0}, "normalTexture": {"index": 1},
+      "extensions": {"KHR_materials_clearcoat": {"clearcoatFactor": 1}, "KHR_materials_ior": {"ior": 1.33}}})");
+  gltf.add("nodes", R"({"mesh": 0})");
+  gltf.add("nodes", R"({"mesh": 1})");
+  return gltf;
+}
+
 Bytes bytes_of(const std::string& text) { return {text.begin(), text.end()}; }
 
 }  // namespace
 
 std::vector<Bytes> seeds() {
   return {bytes_of(character().text()), character().glb(), bytes_of(landscape().text()), landscape().glb(),
-          bytes_of(compressed().text())};
+          bytes_of(compressed().text()), bytes_of(draco_and_webp().text()), draco_and_webp().glb()};
 }
 
 }  // namespace gloam::fuzz
