@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-GPU_PACKAGES = ("Vulkan", "TinyGLTF", "OpenMesh", "embree", "OpenEXR", "meshoptimizer", "nlohmann_json")
+GPU_PACKAGES = ("Vulkan", "draco", "OpenMesh", "embree", "OpenEXR", "meshoptimizer", "nlohmann_json")
 NO_GPU = [f"-DCMAKE_DISABLE_FIND_PACKAGE_{name}=TRUE" for name in GPU_PACKAGES]
 NO_GLM = ["-DCMAKE_DISABLE_FIND_PACKAGE_glm=TRUE"]
 # Programs with their arguments. host_threads: the number of threads that it may have.

@@ -142,10 +142,12 @@ GltfText draco_and_webp() {
   const std::uint32_t indices[] = {0, 1, 2, 2, 1, 3, 1, 4, 3, 3, 4, 5};
   for (const test::DracoSettings& settings :
        {test::DracoSettings{.position_bits = 11}, test::DracoSettings{.edgebreaker = false, .with_metadata = true}}) {
-    const std::string accessor = text_of(gltf.add("accessors", R"({"componentType": 5126, "count": 6, "type": "VEC3"})"));
+    const std::string accessor =
+        text_of(gltf.add("accessors", R"({"componentType": 5126, "count": 6, "type": "VEC3"})"));
     const std::string uvs =
         text_of(gltf.add("accessors", R"({"componentType": 5123, "normalized": true, "count": 6, "type": "VEC2"})"));
-    const std::string list = text_of(gltf.add("accessors", R"({"componentType": 5123, "count": 12, "type": "SCALAR"})"));
+    const std::string list =
+        text_of(gltf.add("accessors", R"({"componentType": 5123, "count": 12, "type": "SCALAR"})"));
     const std::string view = text_of(gltf.view_of(test::encode_draco(attributes, indices, settings)));
     gltf.mesh("\"POSITION\": " + accessor + ", \"NORMAL\": " + accessor + ", \"TEXCOORD_0\": " + uvs,
               R"(, "material": 0, "indices": )" + list +
@@ -171,8 +173,10 @@ Bytes bytes_of(const std::string& text) { return {text.begin(), text.end()}; }
 }  // namespace
 
 std::vector<Bytes> seeds() {
-  return {bytes_of(character().text()), character().glb(), bytes_of(landscape().text()), landscape().glb(),
-          bytes_of(compressed().text()), bytes_of(draco_and_webp().text()), draco_and_webp().glb()};
+  return {bytes_of(character().text()),  character().glb(),
+          bytes_of(landscape().text()),  landscape().glb(),
+          bytes_of(compressed().text()), bytes_of(draco_and_webp().text()),
+          draco_and_webp().glb()};
 }
 
 }  // namespace gloam::fuzz

@@ -29,13 +29,14 @@ struct ImageSize {
   return (std::uint64_t{1} << 30) + 256 * bytes;
 }
 
-/// Size from the header of a PNG, JPEG or WebP. Input error if the file is none of them, its header is damaged, it is an
-/// animated WebP, a side exceeds kMaxImageSide, it is a PNG or JPEG that states more pixels than its bytes can hold at the format's best compression, or its scans exceed
-/// decoding_work_limit. The message holds only the fault, not the place.
+/// Size from the header of a PNG, JPEG or WebP. Input error if the file is none of them, its header is damaged, it is
+/// an animated WebP, a side exceeds kMaxImageSide, it is a PNG or JPEG that states more pixels than its bytes can hold
+/// at the format's best compression, or its scans exceed decoding_work_limit. The message holds only the fault, not the
+/// place.
 [[nodiscard]] Result<ImageSize> image_size(std::span<const std::uint8_t> file);
 
-/// Decodes a PNG, JPEG or WebP to 8-bit RGBA (16-bit channels are rounded down). Uses memory in proportion to the size of the
-/// image. An error's message holds only the fault, not the place.
+/// Decodes a PNG, JPEG or WebP to 8-bit RGBA (16-bit channels are rounded down). Uses memory in proportion to the size
+/// of the image. An error's message holds only the fault, not the place.
 [[nodiscard]] Result<Image> decode_image(std::span<const std::uint8_t> file);
 
 /// Reads and decodes a file. An error's message holds only the fault, not the path.

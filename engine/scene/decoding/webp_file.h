@@ -21,8 +21,8 @@ struct WebpSize {
 /// is damaged or the image is animated. The message holds only the fault, not the place.
 [[nodiscard]] Result<WebpSize> webp_size(std::span<const std::uint8_t> file);
 
-/// Decodes a still WebP, lossy or lossless. rgba: exactly width · height · 4 bytes of webp_size(file). False if the file
-/// is damaged or ends early.
+/// Decodes a still WebP, lossy or lossless. rgba: exactly width · height · 4 bytes of webp_size(file). False if the
+/// file is damaged or ends early.
 [[nodiscard]] bool decode_webp(std::span<const std::uint8_t> file, const WebpSize& size, std::span<std::uint8_t> rgba);
 
 }  // namespace gloam

@@ -122,7 +122,8 @@ TEST(WebpTexture, takes_the_image_of_the_extension_and_leaves_the_fallback_close
   folder.write("a.webp", file);
   GltfText gltf;
   const std::string embedded = R"({"uri": "data:image/webp;base64,)" + test::base64(file) + "\"}";
-  const std::string in_buffer = R"({"mimeType": "image/webp", "bufferView": )" + std::to_string(gltf.view_of(file)) + "}";
+  const std::string in_buffer =
+      R"({"mimeType": "image/webp", "bufferView": )" + std::to_string(gltf.view_of(file)) + "}";
   for (const std::string& image : {std::string(R"({"uri": "a.webp"})"), embedded, in_buffer}) {
     for (const bool required : {true, false}) {
       GltfText scene = gltf;
@@ -147,8 +148,8 @@ TEST(WebpTexture, takes_the_image_of_the_extension_and_leaves_the_fallback_close
 TEST(WebpTexture, a_fallback_that_another_texture_shows_is_read) {
   const std::uint8_t red[4] = {255, 0, 0, 255};
   GltfText gltf;
-  gltf.add("images", R"({"uri": "data:image/webp;base64,)" +
-                         test::base64(test::encode_webp(2, 2, random_pixels(2, 2))) + "\"}");
+  gltf.add("images",
+           R"({"uri": "data:image/webp;base64,)" + test::base64(test::encode_webp(2, 2, random_pixels(2, 2))) + "\"}");
   gltf.add("images", R"({"uri": "data:image/png;base64,)" + test::base64(test::make_png(1, 1, red)) + "\"}");
   gltf.add("textures", texture_of(kWebpSource + R"(, "source": 1)"));
   gltf.add("textures", R"({"source": 1})");

@@ -49,7 +49,8 @@ class ImageOpener {
     if (source.view != kNone) return open_view(index, source.view);
     if (!source.bytes.empty()) return add({.file = std::move(source.bytes), .index = index});
     if (source.uri.empty()) return image_fault("it has neither a uri nor a bufferView");
-    if (source.uri.starts_with("data:")) return image_fault("its data URI is not image/png, image/jpeg or image/webp in base64");
+    if (source.uri.starts_with("data:"))
+      return image_fault("its data URI is not image/png, image/jpeg or image/webp in base64");
     return open_file(index, source.uri);
   }
 
@@ -181,7 +182,8 @@ Result<std::vector<Texture>> import_textures(Document& document) {
     texture.name = source.name;
     texture.image = source.image;
     if (source.image == kNone)
-      document.warnings.push_back(place("texture", i, source.name) + ": it has no PNG, JPEG or WebP image, it is left out");
+      document.warnings.push_back(place("texture", i, source.name) +
+                                  ": it has no PNG, JPEG or WebP image, it is left out");
     if (source.sampler != kNone) {
       const SamplerSource& sampler = document.samplers[source.sampler];
       const Result<WrapMode> wrap_u = wrap_mode(sampler.wrap_u);

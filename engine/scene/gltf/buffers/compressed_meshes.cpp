@@ -23,8 +23,8 @@ Error mesh_fault(std::string sentence) { return {ErrorKind::input, std::move(sen
 /// The primitive's accessor of an attribute; null if the importer does not read attributes of this name.
 std::uint32_t* accessor_of(PrimitiveSource& primitive, std::string_view name) {
   const std::pair<std::string_view, std::uint32_t*> attributes[] = {
-      {"POSITION", &primitive.position}, {"NORMAL", &primitive.normal},   {"TANGENT", &primitive.tangent},
-      {"TEXCOORD_0", &primitive.uv0},    {"TEXCOORD_1", &primitive.uv1},  {"COLOR_0", &primitive.color},
+      {"POSITION", &primitive.position}, {"NORMAL", &primitive.normal},    {"TANGENT", &primitive.tangent},
+      {"TEXCOORD_0", &primitive.uv0},    {"TEXCOORD_1", &primitive.uv1},   {"COLOR_0", &primitive.color},
       {"JOINTS_0", &primitive.joints},   {"WEIGHTS_0", &primitive.weights}};
   for (const auto& [known, accessor] : attributes)
     if (known == name && *accessor != kNone) return accessor;

@@ -14,8 +14,8 @@ namespace gloam::gltf {
 
 /// An attribute that is wanted of a compressed mesh.
 struct DracoAttribute {
-  std::string name;             ///< for messages: "POSITION (accessor 3)"
-  std::uint32_t id = 0;         ///< unique id in the compressed mesh
+  std::string name;      ///< for messages: "POSITION (accessor 3)"
+  std::uint32_t id = 0;  ///< unique id in the compressed mesh
   ComponentType type = ComponentType::f32;
   std::uint32_t components = 1;
   std::uint64_t count = 0;           ///< elements that the accessor states

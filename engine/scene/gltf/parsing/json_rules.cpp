@@ -47,8 +47,6 @@ constexpr Rule kRules[] = {
     {kNodeType, "scale", Form::numbers, false, 3},
     {kNodeType, "weights", Form::numbers},
     {kNodeType, "extensions", Form::object, false, 0, "node extensions"},
-    {"node extensions", "EXT_mesh_gpu_instancing", Form::object, false, 0, "instancing"},
-    {"instancing", "attributes", Form::index_map, true, 0, {}, "accessors"},
     {"mesh", "name", Form::text},
     {"mesh", "primitives", Form::objects, true, kFew, "primitive"},
     {"mesh", "weights", Form::numbers},
@@ -58,9 +56,6 @@ constexpr Rule kRules[] = {
     {"primitive", "mode", Form::index},
     {"primitive", "extensions", Form::object, false, 0, "primitive extensions"},
     {"primitive", "targets", Form::index_maps, false, 0, {}, "accessors"},
-    {"primitive extensions", "KHR_draco_mesh_compression", Form::object, false, 0, "compressed mesh"},
-    {"compressed mesh", "bufferView", Form::index, true, 0, {}, "bufferViews"},
-    {"compressed mesh", "attributes", Form::index_map, true},
     {kMaterialType, "name", Form::text},
     {kMaterialType, "pbrMetallicRoughness", Form::object, false, 0, "pbrMetallicRoughness"},
     {kMaterialType, "normalTexture", Form::object, false, 0, "texture info"},
@@ -71,12 +66,6 @@ constexpr Rule kRules[] = {
     {kMaterialType, "alphaCutoff", Form::number},
     {kMaterialType, "doubleSided", Form::boolean},
     {kMaterialType, "extensions", Form::object, false, 0, "material extensions"},
-    {"material extensions", "KHR_materials_emissive_strength", Form::object, false, 0, "emissive strength"},
-    {"material extensions", "KHR_materials_transmission", Form::object, false, 0, "transmission"},
-    {"material extensions", "KHR_materials_unlit", Form::object, false, 0, "unlit"},
-    {"emissive strength", "emissiveStrength", Form::number},
-    {"transmission", "transmissionFactor", Form::number},
-    {"transmission", "transmissionTexture", Form::object, false, 0, "texture info"},
     {"pbrMetallicRoughness", "baseColorFactor", Form::numbers, false, 4},
     {"pbrMetallicRoughness", "metallicFactor", Form::number},
     {"pbrMetallicRoughness", "roughnessFactor", Form::number},
@@ -87,17 +76,10 @@ constexpr Rule kRules[] = {
     {"texture info", "scale", Form::number},
     {"texture info", "strength", Form::number},
     {"texture info", "extensions", Form::object, false, 0, "texture extensions"},
-    {"texture extensions", "KHR_texture_transform", Form::object, false, 0, "texture transform"},
-    {"texture transform", "offset", Form::numbers, false, 2},
-    {"texture transform", "rotation", Form::number},
-    {"texture transform", "scale", Form::numbers, false, 2},
-    {"texture transform", "texCoord", Form::index},
     {"texture", "name", Form::text},
     {"texture", "source", Form::index, false, 0, {}, "images"},
     {"texture", "sampler", Form::index, false, 0, {}, "samplers"},
     {"texture", "extensions", Form::object, false, 0, "image formats"},
-    {"image formats", "EXT_texture_webp", Form::object, false, 0, "WebP texture"},
-    {"WebP texture", "source", Form::index, false, 0, {}, "images"},
     {"image", "name", Form::text},
     {"image", "uri", Form::text},
     {"image", "bufferView", Form::index, false, 0, {}, "bufferViews"},
@@ -127,20 +109,10 @@ constexpr Rule kRules[] = {
     {"buffer view", "byteLength", Form::size, true},
     {"buffer view", "byteStride", Form::size},
     {"buffer view", "extensions", Form::object, false, 0, "buffer view extensions"},
-    {"buffer view extensions", "EXT_meshopt_compression", Form::object, false, 0, "compressed view"},
-    {"compressed view", "buffer", Form::index, true, 0, {}, "buffers"},
-    {"compressed view", "byteOffset", Form::index},
-    {"compressed view", "byteLength", Form::index, true},
-    {"compressed view", "byteStride", Form::index, true},
-    {"compressed view", "count", Form::index, true},
-    {"compressed view", "mode", Form::word, true, 0, "ATTRIBUTES TRIANGLES INDICES"},
-    {"compressed view", "filter", Form::word, false, 0, "NONE OCTAHEDRAL QUATERNION EXPONENTIAL"},
     {"buffer", "name", Form::text},
     {"buffer", "uri", Form::text},
     {"buffer", "byteLength", Form::size, true},
     {"buffer", "extensions", Form::object, false, 0, "buffer extensions"},
-    {"buffer extensions", "EXT_meshopt_compression", Form::object, false, 0, "compressed buffer"},
-    {"compressed buffer", "fallback", Form::boolean},
     {"skin", "name", Form::text},
     {"skin", "joints", Form::indices, true, 0, {}, "nodes"},
     {"skin", "inverseBindMatrices", Form::index, false, 0, {}, "accessors"},
@@ -169,13 +141,47 @@ constexpr Rule kRules[] = {
     {"orthographic", "zfar", Form::number, true},
 };
 
+/// Rules for the objects of extensions, in the same way.
+constexpr Rule kExtensionRules[] = {
+    {"node extensions", "EXT_mesh_gpu_instancing", Form::object, false, 0, "instancing"},
+    {"instancing", "attributes", Form::index_map, true, 0, {}, "accessors"},
+    {"primitive extensions", "KHR_draco_mesh_compression", Form::object, false, 0, "compressed mesh"},
+    {"compressed mesh", "bufferView", Form::index, true, 0, {}, "bufferViews"},
+    {"compressed mesh", "attributes", Form::index_map, true},
+    {"material extensions", "KHR_materials_emissive_strength", Form::object, false, 0, "emissive strength"},
+    {"material extensions", "KHR_materials_transmission", Form::object, false, 0, "transmission"},
+    {"material extensions", "KHR_materials_unlit", Form::object, false, 0, "unlit"},
+    {"emissive strength", "emissiveStrength", Form::number},
+    {"transmission", "transmissionFactor", Form::number},
+    {"transmission", "transmissionTexture", Form::object, false, 0, "texture info"},
+    {"texture extensions", "KHR_texture_transform", Form::object, false, 0, "texture transform"},
+    {"texture transform", "offset", Form::numbers, false, 2},
+    {"texture transform", "rotation", Form::number},
+    {"texture transform", "scale", Form::numbers, false, 2},
+    {"texture transform", "texCoord", Form::index},
+    {"image formats", "EXT_texture_webp", Form::object, false, 0, "WebP texture"},
+    {"WebP texture", "source", Form::index, false, 0, {}, "images"},
+    {"buffer view extensions", "EXT_meshopt_compression", Form::object, false, 0, "compressed view"},
+    {"compressed view", "buffer", Form::index, true, 0, {}, "buffers"},
+    {"compressed view", "byteOffset", Form::index},
+    {"compressed view", "byteLength", Form::index, true},
+    {"compressed view", "byteStride", Form::index, true},
+    {"compressed view", "count", Form::index, true},
+    {"compressed view", "mode", Form::word, true, 0, "ATTRIBUTES TRIANGLES INDICES"},
+    {"compressed view", "filter", Form::word, false, 0, "NONE OCTAHEDRAL QUATERNION EXPONENTIAL"},
+    {"buffer extensions", "EXT_meshopt_compression", Form::object, false, 0, "compressed buffer"},
+    {"compressed buffer", "fallback", Form::boolean},
+};
+
 }  // namespace
 
 std::span<const Rule> rules_of(std::string_view type) {
   const auto in_type = [type](const Rule& rule) { return rule.type == type; };
-  const Rule* first = std::find_if(std::begin(kRules), std::end(kRules), in_type);
-  const Rule* last = std::find_if_not(first, std::end(kRules), in_type);
-  return {first, last};
+  for (const std::span<const Rule> rules : {std::span<const Rule>(kRules), std::span<const Rule>(kExtensionRules)}) {
+    const auto first = std::find_if(rules.begin(), rules.end(), in_type);
+    if (first != rules.end()) return {first, std::find_if_not(first, rules.end(), in_type)};
+  }
+  return {};
 }
 
 }  // namespace gloam::gltf

@@ -3,8 +3,8 @@
 #include "engine/scene/gltf/parsing/material_read.h"
 
 // clang-format off: tinygltf_names.h comes first
-#include "engine/scene/gltf/parsing/tinygltf_names.h"
 #include <tiny_gltf.h>
+#include "engine/scene/gltf/parsing/tinygltf_names.h"
 // clang-format on
 
 #include <algorithm>

@@ -3,8 +3,8 @@
 #include "engine/scene/gltf/parsing/tinygltf_reader.h"
 
 // clang-format off: tinygltf_names.h comes first
-#include "engine/scene/gltf/parsing/tinygltf_names.h"
 #include <tiny_gltf.h>
+#include "engine/scene/gltf/parsing/tinygltf_names.h"
 // clang-format on
 
 #include <algorithm>
@@ -141,7 +141,8 @@ void hide_indices(nlohmann::json& root, Hidden& hidden) {
 }
 
 /// A copy of the file that tinygltf reads: fallback buffers, whose content is never read, hold one byte, because it
-/// wants a uri, spots have a `spot` object, and a WebP counts as a PNG. Indices of compressed meshes are left out and noted in `hidden`.
+/// wants a uri, spots have a `spot` object, and a WebP counts as a PNG. Indices of compressed meshes are left out and
+/// noted in `hidden`.
 Container made_readable(const Container& file, const JsonScan& scan, Hidden& hidden) {
   nlohmann::json root = nlohmann::json::parse(file.json());
   if (scan.compressed_meshes) hide_indices(root, hidden);
@@ -424,9 +425,8 @@ Result<Document> read_document(const Container& file, const JsonScan& scan, cons
   const bool fallbacks = std::ranges::any_of(scan.buffers, &ByteSource::fallback);
   Hidden hidden{.spots = spots_without_cone(scan), .webps = embedded_webps(scan), .indices = {}};
   const bool readable = !fallbacks && !scan.compressed_meshes && hidden.spots.empty() && hidden.webps.empty();
-  Result<tinygltf::Model> loaded = !readable
-                                       ? load_model(made_readable(file, scan, hidden), scan, directory)
-                                       : load_model(file, scan, directory);
+  Result<tinygltf::Model> loaded =
+      !readable ? load_model(made_readable(file, scan, hidden), scan, directory) : load_model(file, scan, directory);
   if (!loaded) return loaded.error();
   tinygltf::Model& model = *loaded;
   Document document;

@@ -18,9 +18,9 @@ struct Member {
 
 struct Undrawn {
   std::string_view extension;
-  std::array<Member, 2> members;                ///< without a name: none
-  std::array<std::string_view, 2> textures;     ///< which have an effect wherever they stand
-  bool always = false;                          ///< the extension has an effect wherever it stands
+  std::array<Member, 2> members;             ///< without a name: none
+  std::array<std::string_view, 2> textures;  ///< which have an effect wherever they stand
+  bool always = false;                       ///< the extension has an effect wherever it stands
 };
 
 // The geometry buffer holds one reflectance at normal incidence for all surfaces that are no metals, and one lobe.

@@ -55,23 +55,19 @@ PlainMesh bumpy_square() {
     }
   }
   PlainMesh mesh;
-  mesh.attributes = {plain_attribute("POSITION", 40, 5126, 3, positions),
-                     plain_attribute("NORMAL", 3, 5126, 3, normals),
-                     plain_attribute("TANGENT", 0, 5126, 4, tangents),
-                     plain_attribute("TEXCOORD_0", 7, 5126, 2, uv0),
-                     plain_attribute("TEXCOORD_1", 6, 5123, 2, uv1, true),
-                     plain_attribute("COLOR_0", 1, 5123, 4, colors, true),
-                     plain_attribute("JOINTS_0", 12, 5121, 4, joints),
-                     plain_attribute("WEIGHTS_0", 1000, 5121, 4, weights, true)};
+  mesh.attributes = {
+      plain_attribute("POSITION", 40, 5126, 3, positions),  plain_attribute("NORMAL", 3, 5126, 3, normals),
+      plain_attribute("TANGENT", 0, 5126, 4, tangents),     plain_attribute("TEXCOORD_0", 7, 5126, 2, uv0),
+      plain_attribute("TEXCOORD_1", 6, 5123, 2, uv1, true), plain_attribute("COLOR_0", 1, 5123, 4, colors, true),
+      plain_attribute("JOINTS_0", 12, 5121, 4, joints),     plain_attribute("WEIGHTS_0", 1000, 5121, 4, weights, true)};
   for (std::uint32_t y = 0; y + 1 < kSide; ++y)
     for (std::uint32_t x = 0; x + 1 < kSide; ++x)
-      for (const std::uint32_t corner : {0u, 1u, kSide, kSide, 1u, kSide + 1}) mesh.indices.push_back(y * kSide + x + corner);
+      for (const std::uint32_t corner : {0u, 1u, kSide, kSide, 1u, kSide + 1})
+        mesh.indices.push_back(y * kSide + x + corner);
   return mesh;
 }
 
-std::string type_of(int components) {
-  return components == 1 ? "SCALAR" : "VEC" + std::to_string(components);
-}
+std::string type_of(int components) { return components == 1 ? "SCALAR" : "VEC" + std::to_string(components); }
 
 /// Members of an accessor that tell its form.
 std::string form_of(const PlainAttribute& attribute) {
@@ -107,15 +103,14 @@ struct MeshFile {
       ids += (i == 0 ? "\"" : ", \"") + attribute.name + "\": " + std::to_string(id);
     }
     std::string view;
-    if (stream.empty() || with_fallback)
-      view = R"("bufferView": )" + std::to_string(gltf.view_of(mesh.indices)) + ", ";
+    if (stream.empty() || with_fallback) view = R"("bufferView": )" + std::to_string(gltf.view_of(mesh.indices)) + ", ";
     const int indices = gltf.add("accessors", "{" + view + R"("componentType": 5125, "type": "SCALAR", "count": )" +
                                                   std::to_string(index_count) + "}");
-    std::string more = R"(, "material": 0, "indices": )" + std::to_string(indices) + ", \"mode\": " +
-                       std::to_string(mode);
+    std::string more =
+        R"(, "material": 0, "indices": )" + std::to_string(indices) + ", \"mode\": " + std::to_string(mode);
     if (!stream.empty()) {
-      more += R"(, "extensions": {"KHR_draco_mesh_compression": {"bufferView": )" + std::to_string(gltf.view_of(stream)) +
-              R"(, "attributes": {)" + ids + "}}}";
+      more += R"(, "extensions": {"KHR_draco_mesh_compression": {"bufferView": )" +
+              std::to_string(gltf.view_of(stream)) + R"(, "attributes": {)" + ids + "}}}";
       gltf.set("extensionsUsed", R"(["KHR_draco_mesh_compression"])");
       if (!with_fallback) gltf.set("extensionsRequired", R"(["KHR_draco_mesh_compression"])");
     }
@@ -286,8 +281,7 @@ TEST(CompressedMeshes, a_stream_that_does_not_hold_what_the_accessors_say_is_ref
   EXPECT_EQ(fault_of(file), kPlace + "it holds 81 vertices, but NORMAL (accessor 1) has 27 elements");
   file = sound;
   file.forms[5].replace(file.forms[5].find("5123"), 4, "5121");  // 16-bit colours do not fit
-  EXPECT_EQ(fault_of(file),
-            kPlace + "a value of COLOR_0 (accessor 5) does not fit componentType 5121");
+  EXPECT_EQ(fault_of(file), kPlace + "a value of COLOR_0 (accessor 5) does not fit componentType 5121");
   file = sound;
   file.stream = test::encode_draco_points(mesh.attributes);
   EXPECT_EQ(fault_of(file), kPlace + "it holds points, not triangles");
