@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "sandbox/session/loading/default_light.h"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "engine/ecs/view.h"
 #include "engine/scene/assets.h"
@@ -10,11 +12,26 @@
 #include "engine/scene/resources.h"
 #include "modules/lights/components.h"
 #include "sandbox/scenes/construction/scene_builder.h"
+#include "sandbox/session/loading/model_brightness.h"
 
 namespace gloam {
 namespace {
 
-constexpr float kExposureEv100 = 11.7f;
+// The exposure of a model that reflects kMiddleReflectance of the light. Brighter and darker models shift it, but not
+// by as much as they differ, so that white looks brighter than black; and the sky behind the model stays within the
+// curve.
+constexpr double kExposureEv100 = 11.7;
+constexpr double kMiddleReflectance = 0.3;
+constexpr double kFollows = 0.65;
+constexpr double kMostDown = -2.0;
+constexpr double kMostUp = 0.7;
+
+float exposure_of_model(const World& world) {
+  const std::optional<double> reflectance = mean_reflectance(world);
+  if (!reflectance) return static_cast<float>(kExposureEv100);
+  const double shift = kFollows * std::log2(std::max(*reflectance, 1e-6) / kMiddleReflectance);
+  return static_cast<float>(kExposureEv100 + std::clamp(shift, kMostDown, kMostUp));
+}
 
 bool is_black(const vec3& color) { return color.x <= 0.0f && color.y <= 0.0f && color.z <= 0.0f; }
 
@@ -44,8 +61,8 @@ bool add_default_light(World& world, SceneInfo& info) {
   environment.sky_horizon = vec3(1050.0f, 980.0f, 980.0f);
   environment.sky_ground = vec3(240.0f, 215.0f, 195.0f);
   if (!environment.has_exposure) {
-    environment.exposure_ev100 = kExposureEv100;
-    const float white = 1.2f * std::exp2(kExposureEv100);  // cd/m² that the exposure maps to 1
+    environment.exposure_ev100 = exposure_of_model(world);
+    const float white = 1.2f * std::exp2(environment.exposure_ev100);  // cd/m² that the exposure maps to 1
     for (Material& material : world.resource<SceneAssets>().materials) material.emissive *= white;
   }
   environment.has_exposure = true;

@@ -13,9 +13,9 @@ struct DefaultLight {
 };
 
 /// Gives a scene that draws something but has neither a light nor a sky a soft sky, a low sun from the right of a
-/// framed_view(), and an exposure that suits them, unless the scene sets one. With that exposure, what emits 1 cd/m² in
-/// the file looks white, as in programs that show emission and unlit materials in units of the picture. False: nothing
-/// was added.
+/// framed_view(), and an exposure that suits them and how bright the drawn surfaces are, unless the scene sets one.
+/// With that exposure, what emits 1 cd/m² in the file looks white, as in programs that show emission and unlit
+/// materials in units of the picture. False: nothing was added.
 bool add_default_light(World& world, SceneInfo& info);
 
 /// The sentence that tells of it.

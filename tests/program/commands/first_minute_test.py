@@ -89,6 +89,25 @@ class FirstMinute(ProgramCase):
     def test_a_helmet(self):
         self.check(self.helmet())
 
+    def test_a_white_and_a_black_model_show_their_shape(self):
+        """The exposure is that of the model, not of what is behind it."""
+        medians = {}
+        for name, color in (("white", 1.0), ("grey", 0.3), ("black", 0.01)):
+            scene = self.helmet()
+            for material in scene["materials"]:
+                for member in set(material) - {"name", "doubleSided"}:
+                    material.pop(member)
+                material["pbrMetallicRoughness"] = {"baseColorFactor": [color] * 3 + [1], "metallicFactor": 0, "roughnessFactor": 0.6}
+            lit, _ = self.draw("lit", scene)
+            glow, _ = self.draw("glow", glowing(scene), "--set", "scene.default_light=off", "--set", "lighting.antialiasing=off")
+            inside = sorted(max(lit.pixel(x, y)) for y in range(HEIGHT) for x in range(WIDTH) if glow.pixel(x, y)[0] > 8)
+            medians[name] = inside[len(inside) // 2]
+            self.assertGreater(inside[len(inside) * 9 // 10] - inside[len(inside) // 10], 40, f"{name} is flat")
+        self.assertGreater(medians["black"], 60, "the shape of a black model is seen")
+        self.assertLess(medians["white"], 220, "a white model is not burnt out")
+        self.assertLess(medians["black"], medians["grey"] - 20)
+        self.assertLess(medians["grey"], medians["white"] - 20)
+
     def test_an_unlit_model_has_its_colours(self):
         scene = self.helmet()
         for material in scene["materials"]:

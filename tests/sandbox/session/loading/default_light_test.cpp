@@ -13,6 +13,7 @@
 #include "modules/module_list/module_list.h"
 #include "sandbox/scenes/construction/scene_builder.h"
 #include "sandbox/scenes/construction/shapes.h"
+#include "sandbox/session/loading/model_brightness.h"
 #include "sandbox/session/loading/scene_loading.h"
 #include "sandbox/session/loading/scene_summary.h"
 
@@ -42,6 +43,50 @@ TEST_F(DefaultLightTest, lights_a_scene_without_lights_and_sky) {
   EXPECT_GT(environment.sky_zenith.z, environment.sky_zenith.x);
   EXPECT_TRUE(environment.has_exposure);
   EXPECT_FALSE(add_default_light(world_, info_)) << "a second call finds light";
+}
+
+TEST_F(DefaultLightTest, exposes_by_how_bright_the_model_is) {
+  // Metal reflects its base colour.
+  const auto exposure_of = [this](float color, float metallic) {
+    World world;
+    prepare_world(world, modules_);
+    SceneInfo info;
+    SceneBuilder builder(world, info);
+    Material material;
+    material.base_color = vec4(vec3(color), 1.0f);
+    material.metallic = metallic;
+    world.resource<SceneAssets>().materials.push_back(material);
+    builder.add_instance("box", builder.add_mesh("box", box_shape(vec3(1.0f)), 0), {});
+    EXPECT_TRUE(add_default_light(world, info));
+    return world.resource<SceneEnvironment>().exposure_ev100;
+  };
+  const float middle = exposure_of(0.3f, 1.0f);
+  const float twice = exposure_of(0.6f, 1.0f);
+  EXPECT_GT(twice - middle, 0.4f);
+  EXPECT_LT(twice - middle, 1.0f);  // less than by how much brighter it is, so that it looks brighter
+  const float dark = exposure_of(0.05f, 1.0f);
+  const float black = exposure_of(0.0f, 0.0f);
+  EXPECT_LT(dark - middle, -1.2f);
+  EXPECT_GE(black - middle, -2.01f);
+  EXPECT_LE(black, dark);
+}
+
+TEST_F(DefaultLightTest, weighs_the_parts_of_a_model_by_their_area) {
+  auto& materials = world_.resource<SceneAssets>().materials;
+  materials.resize(3);
+  materials[1].base_color = vec4(0.0f, 0.0f, 0.0f, 1.0f);
+  materials[2].base_color = vec4(0.0f, 0.0f, 0.0f, 1.0f);
+  materials[2].emissive = vec3(1.0f);
+  EXPECT_FALSE(mean_reflectance(world_));
+  const auto add = [this](std::uint32_t material, double size) {
+    builder_.add_instance("box", builder_.add_mesh("box", box_shape(vec3(1.0f)), material), {}, 0.0, dvec3(size));
+  };
+  add(0, 1.0);  // white metal: 1
+  EXPECT_NEAR(mean_reflectance(world_).value(), 1.0, 1e-9);
+  add(1, 2.0);  // black metal: 0, and four times the area
+  EXPECT_NEAR(mean_reflectance(world_).value(), 0.2, 1e-6);
+  add(2, 50.0);  // a black surface that emits
+  EXPECT_NEAR(mean_reflectance(world_).value(), 0.2, 1e-6);
 }
 
 TEST_F(DefaultLightTest, keeps_the_exposure_of_the_scene) {
