@@ -5,9 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/ext/matrix_transform.hpp>
 
 #include "engine/ecs/view.h"
 #include "engine/scene/assets.h"
+#include "engine/scene/components.h"
 #include "engine/scene/resources.h"
 #include "modules/lights/components.h"
 #include "modules/module_list/module_list.h"
@@ -79,7 +81,8 @@ TEST_F(DefaultLightTest, weighs_the_parts_of_a_model_by_their_area) {
   materials[2].emissive = vec3(1.0f);
   EXPECT_FALSE(mean_reflectance(world_));
   const auto add = [this](std::uint32_t material, double size) {
-    builder_.add_instance("box", builder_.add_mesh("box", box_shape(vec3(1.0f)), material), {}, 0.0, dvec3(size));
+    const Entity box = builder_.add_instance("box", builder_.add_mesh("box", box_shape(vec3(1.0f)), material), {});
+    world_.get<WorldTransform>(box).matrix = glm::scale(dmat4(1.0), dvec3(size));
   };
   add(0, 1.0);  // white metal: 1
   EXPECT_NEAR(mean_reflectance(world_).value(), 1.0, 1e-9);
