@@ -37,5 +37,9 @@ ldd build/bin/gloam | sed -n 's/^\t\(\S*\) => \(\S*\) .*/\1 \2/p' | while read -
   package=$(dpkg -S "$(readlink -f "$path")" 2>/dev/null | cut -d: -f1 | head -n 1 || true)
   [ -z "$package" ] || cp -L "/usr/share/doc/$package/copyright" "$folder/licences/$package" 2>/dev/null || true
 done
+# Libraries that are inside the program.
+for package in libdraco-dev libtinygltf-dev; do
+  cp -L "/usr/share/doc/$package/copyright" "$folder/licences/$package"
+done
 tar -C out -c "$name" | zstd -q -19 -T0 -f -o "$folder.tar.zst"
 ls -l "$folder.tar.zst" | awk '{printf "%s: %.1f MB\n", $9, $5 / 1e6}'
