@@ -103,6 +103,33 @@ class HardInput(ProgramCase):
         self.refused(self.write("bomb.gltf", scene), "bomb.png")
         self.assertLess(time.monotonic() - started, SECONDS)
 
+    # Hard case: scene.lying_draco, scene.damaged_draco
+    def test_a_draco_stream_of_billions_and_one_that_is_cut(self):
+        def varint(value):
+            return (bytes([value & 127 | 128]) + varint(value >> 7)) if value > 127 else bytes([value])
+
+        head = b"DRACO" + bytes([2, 2, 1])  # version 2.2, a mesh
+        for method, counts in ((0, (1_400_000_000, 3)), (0, (1, 4_000_000_000)), (1, (3, 1_400_000_000)), (1, (3, 1))):
+            stream = head + bytes([method, 0, 0]) + bytes(method) + b"".join(map(varint, counts)) + bytes(9)
+            (self.folder / "mesh.bin").write_bytes(stream)
+            triangles = counts[method]
+            scene = {"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}], "extensionsRequired": ["KHR_draco_mesh_compression"],
+                     "buffers": [{"uri": "mesh.bin", "byteLength": len(stream)}],
+                     "bufferViews": [{"buffer": 0, "byteLength": len(stream)}],
+                     "accessors": [{"componentType": 5126, "count": 3, "type": "VEC3"},
+                                   {"componentType": 5125, "count": 3 * triangles, "type": "SCALAR"}],
+                     "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "extensions": {
+                         "KHR_draco_mesh_compression": {"bufferView": 0, "attributes": {"POSITION": 0}}}}]}]}
+            self.refused(self.write("draco.gltf", scene), "draco.gltf: mesh 0, primitive 0, KHR_draco_mesh_compression: it")
+
+    # Hard case: scene.damaged_webp
+    def test_a_webp_of_the_largest_size_in_a_few_bytes(self):
+        chunk = b"\x2f" + struct.pack("<I", 16383 | 16383 << 14) + bytes(20)  # lossless, width − 1 and height − 1 in 14 bits each
+        body = b"WEBPVP8L" + struct.pack("<I", len(chunk)) + chunk + bytes(len(chunk) % 2)
+        (self.folder / "bomb.webp").write_bytes(b"RIFF" + struct.pack("<I", len(body)) + body)
+        scene = {**copy.deepcopy(TRIANGLE), "images": [{"uri": "bomb.webp"}]}
+        self.refused(self.write("webp.gltf", scene), "webp.gltf: image 0 \"bomb.webp\": is a damaged image")
+
     def test_a_scene_that_is_replaced_while_it_is_read(self):
         whole, cut = json.dumps(TRIANGLE), json.dumps(TRIANGLE)[:200]
         path = self.folder / "moving.gltf"
