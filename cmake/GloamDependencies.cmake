@@ -14,7 +14,7 @@ find_package(nlohmann_json REQUIRED)
 find_package(embree 3 REQUIRED)
 find_library(GLOAM_LIBDEFLATE deflate REQUIRED)  # has no CMake package: targets link it by name
 find_library(GLOAM_LIBWEBP webp REQUIRED)  # the same
-find_path(GLOAM_TINYGLTF_HEADERS tiny_gltf.h REQUIRED)  # compiled by engine/scene, see tinygltf_names.h
+find_path(GLOAM_TINYGLTF_HEADERS tiny_gltf.h REQUIRED)  # engine/scene compiles it
 find_path(GLOAM_XXHASH_HEADERS xxhash.h REQUIRED)  # header only, has no CMake package
 find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
 find_program(SPIRV_OPT spirv-opt REQUIRED)

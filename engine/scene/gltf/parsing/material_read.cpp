@@ -2,10 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/gltf/parsing/material_read.h"
 
-// clang-format off: tinygltf_names.h comes first
 #include <tiny_gltf.h>
-#include "engine/scene/gltf/parsing/tinygltf_names.h"
-// clang-format on
 
 #include <algorithm>
 #include <cmath>

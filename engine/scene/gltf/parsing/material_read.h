@@ -4,9 +4,8 @@
 
 #include "engine/core/result.h"
 #include "engine/scene/assets.h"
-#include "engine/scene/gltf/parsing/tinygltf_names.h"
 
-namespace tinygltf {
+namespace gloam_tinygltf {  // tinygltf, see engine/scene/CMakeLists.txt
 struct Material;
 }
 
@@ -16,9 +15,9 @@ namespace gloam::gltf {
 /// KHR_materials_transmission is read as thin glass: alpha falls with the factor, and the surface is blended.
 /// KHR_materials_unlit is read as a black surface that emits its base colour. Input error: a factor that is not finite
 /// as a float. The message holds only the fault, not the place.
-[[nodiscard]] Result<Material> read_material(const tinygltf::Material& source);
+[[nodiscard]] Result<Material> read_material(const gloam_tinygltf::Material& source);
 
 /// Whether the material has a texture of KHR_materials_transmission, which read_material ignores.
-[[nodiscard]] bool has_transmission_texture(const tinygltf::Material& source);
+[[nodiscard]] bool has_transmission_texture(const gloam_tinygltf::Material& source);
 
 }  // namespace gloam::gltf

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-// The functions of tinygltf.
-#include "engine/scene/gltf/parsing/tinygltf_names.h"
-
+// The functions of tinygltf, in the namespace that CMakeLists.txt gives it.
 #define TINYGLTF_IMPLEMENTATION
 #include <tiny_gltf.h>
