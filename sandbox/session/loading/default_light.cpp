@@ -24,7 +24,7 @@ constexpr double kExposureEv100 = 11.7;
 constexpr double kMiddleReflectance = 0.3;
 constexpr double kFollows = 0.65;
 constexpr double kMostDown = -2.0;
-constexpr double kMostUp = 0.7;
+constexpr double kMostUp = 0.5;
 
 float exposure_of_model(const World& world) {
   const std::optional<double> reflectance = mean_reflectance(world);
