@@ -31,10 +31,10 @@ void add_dof_passes(FrameBuilder& frame, const DepthOfField& values, const Lens&
 
 void list_dof_pipelines(const DofKnobs& knobs, bool threads_in_turn, PipelineList& list) {
   const auto add = [&](const ComputeProgram& program) { list.push_back(pipeline_desc(program, "depth_of_field")); };
-  for (const ComputeProgram& program : {dof_reset_program(), dof_bounds_program(), dof_reach_program(),
-                                        dof_find_sprites_program(), dof_reach_sprites_program()})
+  for (const ComputeProgram& program : {dof_reset_program(), dof_bounds_program(), dof_find_sprites_program(), dof_reach_sprites_program()})
     add(program);
   for (const Bokeh bokeh : {Bokeh::round, Bokeh::hexagonal}) {
+    add(dof_reach_program(bokeh));
     add(dof_list_program(bokeh));
     for (const bool second : {false, true}) {
       add(dof_prefilter_program(bokeh, second, threads_in_turn));

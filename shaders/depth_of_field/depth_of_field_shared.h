@@ -68,7 +68,6 @@ struct DofConstants {
   float to[GLOAM_DOF_LEVELS];
   ivec2 corner[GLOAM_DOF_LEVELS];  // of a level in the image of all levels
   int taps[GLOAM_DOF_LEVELS];      // the farthest texel that a kernel of the level reads
-  int spread[GLOAM_DOF_LEVELS];    // tiles beyond a gathered one whose texels of the level are read
   int first_level;
   int last_level;
 };

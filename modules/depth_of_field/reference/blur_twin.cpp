@@ -140,7 +140,7 @@ class DofTwin {
           const double between = k == 0 ? 1.0 : 1.5 * (1 << k),
                        radius = std::min(other.near_radius, kNearFiner * greatest(k));
           if (radius + between > kTwinTile * std::max(apart - 1, 0)) own.composed_near |= other.near & bit;
-          if (other.open && apart <= c_.spread[k]) own.composed_far |= own.fill & bit;
+          if (other.open && kTwinTile * (apart - 1) <= c_.taps[k] << k) own.composed_far |= own.fill & bit;
         }
       }
   }
@@ -270,13 +270,14 @@ class DofTwin {
     const Level& level = levels_[k];
     const dvec4 own = level.far[level.at(x, y)];
     dvec4 front(0.0), back(0.0), fill(0.0);
+    const int texels = fill_texels(tiles_[static_cast<std::size_t>(tile_of(x << k, y << k))].near_radius, k);
     for (int dy = -c_.taps[k]; dy <= c_.taps[k]; ++dy)
       for (int dx = -c_.taps[k]; dx <= c_.taps[k]; ++dx) {
         const dvec4 other = level.far[level.at(x + dx, y + dy)];
         const dvec4 counted(dvec3(other), 1.0);
         if (other.w > 0.0 && own.w > 0.0)
           (other.w < own.w ? front : back) += spread(distance(dx, dy), std::min(other.w, own.w)) * counted;
-        if (other.w > kNoLight && dx * dx + dy * dy <= fill_texels(k))
+        if (other.w > kNoLight && dx * dx + dy * dy <= texels)
           fill += counted / std::pow(dx * dx + dy * dy + 0.25, 2);
       }
     if (own.w > 0.0) {
@@ -285,9 +286,8 @@ class DofTwin {
     }
     return own.w < 0.0 && fill.w > 0.0 ? fill / fill.w / 256.0 : dvec4(0.0);
   }
-  [[nodiscard]] int fill_texels(int k) const {
-    return dof_texels(in_.bokeh, kernel(k == c_.last_level ? double{c_.radius} : double{c_.to[k]}, k));
-  }
+  /// Light is filled in as far as the circles of the tile reach.
+  [[nodiscard]] int fill_texels(double radius, int k) const { return dof_texels(in_.bokeh, kernel(radius, k)); }
   [[nodiscard]] dvec4 gather_near(int k, int x, int y) const {
     const Level& level = levels_[k];
     dvec4 sum(0.0);

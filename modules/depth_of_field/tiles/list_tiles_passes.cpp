@@ -19,7 +19,9 @@ BufferRef buffer_of(FrameBuilder& frame, const char* name, std::uint64_t bytes) 
 
 ComputeProgram dof_reset_program() { return {shaders::depth_of_field::reset_comp}; }
 ComputeProgram dof_bounds_program() { return {shaders::depth_of_field::bounds_comp}; }
-ComputeProgram dof_reach_program() { return {shaders::depth_of_field::reach_comp}; }
+ComputeProgram dof_reach_program(Bokeh bokeh) {
+  return {shaders::depth_of_field::reach_comp, {{"kHexagonal", bokeh == Bokeh::hexagonal ? 1u : 0u}}};
+}
 ComputeProgram dof_list_program(Bokeh bokeh) {
   return {shaders::depth_of_field::list_comp, {{"kHexagonal", bokeh == Bokeh::hexagonal ? 1u : 0u}}};
 }
@@ -43,7 +45,7 @@ DofTiles add_dof_tile_passes(FrameBuilder& frame, const DofInputs& inputs) {
       bounds.write("bounds", dof_tile_buffer(frame, inputs, "dof_tile_bounds", sizeof(shaders::DofTileBounds)));
   bounds.dispatch_over(size);
 
-  ComputePass reach(frame, "dof_tile_reach", dof_reach_program());
+  ComputePass reach(frame, "dof_tile_reach", dof_reach_program(inputs.bokeh));
   reach.read("dof", inputs.block);
   reach.read("bounds", tiles.bounds);
   reach.read("picture", tiles.picture);

@@ -9,7 +9,7 @@ namespace gloam {
 
 [[nodiscard]] ComputeProgram dof_reset_program();
 [[nodiscard]] ComputeProgram dof_bounds_program();
-[[nodiscard]] ComputeProgram dof_reach_program();
+[[nodiscard]] ComputeProgram dof_reach_program(Bokeh bokeh);
 [[nodiscard]] ComputeProgram dof_list_program(Bokeh bokeh);
 
 /// A buffer with an item for each tile. size: bytes of an item.

@@ -32,14 +32,13 @@ void main() {
   if (any(greaterThanEqual(tile, ivec2(dof.tiles)))) return;
   // Levels of this tile's texels that are read: by kernels (layer), between texels (far, near).
   uint far_layer = 0u, near_layer = 0u, far = 0u, near = 0u;
-  int reach = max(kernel_spread(), (picture.far_levels | picture.near_levels) != 0u ? 1 : 0);
+  int reach = max(find_spreads(), (picture.far_levels | picture.near_levels) != 0u ? 1 : 0);
   for (int y = -reach; y <= reach; ++y)
     for (int x = -reach; x <= reach; ++x) {
       ivec2 other = clamp(tile + ivec2(x, y), ivec2(0), ivec2(dof.tiles) - 1);
       DofTileReach found = reached[other.y * int(dof.tiles.x) + other.x];
       int apart = max(abs(x), abs(y));
-      uint read = 0u;
-      for (int k = dof.first_level; k <= dof.last_level; ++k) read |= apart <= dof.spread[k] ? 1u << k : 0u;
+      uint read = levels_read(apart);
       far_layer |= found.far & read;
       near_layer |= found.near & read;
       // Texels of level 0 are pixels: nothing lies between them.
@@ -61,8 +60,8 @@ void main() {
              DofEntry(place, k, int(wanted)));
     float greatest = k == dof.last_level ? dof.radius : dof.to[k];
     bool fills = own.near_radius > 0.0;
-    int far_work =
-        texels_of(kernel_radius(fills ? greatest : min(own.far_radius, greatest), k)) | (fills ? GLOAM_DOF_FILLS : 0);
+    int far_work = texels_of(kernel_radius(min(max(own.far_radius, own.near_radius), greatest), k)) |
+                   (fills ? GLOAM_DOF_FILLS : 0);
     float near_greatest = k == dof.last_level ? dof.radius : GLOAM_DOF_NEAR_FINER * dof.to[k];
     int near_work = texels_of(kernel_radius(min(own_reach.near_radius, near_greatest), k));
     // Beyond the tiles that are composed there is nothing to interpolate with.

@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/depth_of_field/depth_of_field_shared.h"
+#include "shaders/depth_of_field/kernel_api.glsl"
 
 // The levels of both layers that are composed in each tile.
 
@@ -20,22 +21,21 @@ void main() {
   if (any(greaterThanEqual(tile, ivec2(dof.tiles)))) return;
   uint near = 0u, open = 0u;  // open: levels whose kernels find light that is not before the focus
   float near_radius = 0.0;
-  int reach = max(near_spread(), kernel_spread());
+  int reach = max(near_spread(), find_spreads());
   for (int y = -reach; y <= reach; ++y)
     for (int x = -reach; x <= reach; ++x) {
       ivec2 other = clamp(tile + ivec2(x, y), ivec2(0), ivec2(dof.tiles) - 1);
       DofTileBounds found = bounds[other.y * int(dof.tiles.x) + other.x];
       int apart = max(abs(x), abs(y));
-      uint reaching = 0u, read = 0u;
+      uint reaching = 0u;
       for (int k = dof.first_level; k <= dof.last_level; ++k) {
         float greatest =
             k == dof.last_level ? found.near_radius : min(found.near_radius, GLOAM_DOF_NEAR_FINER * dof.to[k]);
         reaching |= reaches(greatest, k, apart) ? 1u << k : 0u;
-        read |= apart <= dof.spread[k] ? 1u << k : 0u;
       }
       near |= found.near & reaching;
       near_radius = max(near_radius, (found.near & reaching) != 0u ? found.near_radius : 0.0);
-      open |= found.open != 0u ? read : 0u;
+      open |= found.open != 0u ? levels_read(apart) : 0u;
     }
   DofTileBounds own = bounds[tile.y * int(dof.tiles.x) + tile.x];
   // Behind the tile's own objects before the focus, the far layer is filled in from what is visible near them.

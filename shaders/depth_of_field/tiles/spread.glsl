@@ -19,11 +19,30 @@ int near_spread() {
   return radius > 0.0 ? 1 + int((radius + between) / float(GLOAM_DOF_TILE)) : 0;
 }
 
-// The farthest tile whose texels kernels read, in the whole picture.
-int kernel_spread() {
-  int spread = 0;
-  for (int k = 0; k <= findMSB(picture.far_levels | picture.near_levels); ++k) spread = max(spread, dof.spread[k]);
-  return spread;
+// The farthest tile whose texels kernels of a level read, in the whole picture.
+int kernel_spread(int level) {
+  float greatest = level == dof.last_level ? dof.radius : GLOAM_DOF_NEAR_FINER * dof.to[level];
+  float radius = min(uintBitsToFloat(picture.radius), greatest);
+  int taps = int(sqrt(float(texels_of(kernel_radius(radius, level)))));
+  return ((taps << level) + GLOAM_DOF_TILE - 1) / GLOAM_DOF_TILE;
+}
+
+// Of each level; 0 for those that the picture does not have.
+int spreads[GLOAM_DOF_LEVELS];
+int find_spreads() {
+  uint levels = picture.far_levels | picture.near_levels;
+  int most = 0;
+  for (int k = 0; k < GLOAM_DOF_LEVELS; ++k) {
+    spreads[k] = (levels >> k & 1u) != 0u ? kernel_spread(k) : 0;
+    most = max(most, spreads[k]);
+  }
+  return most;
+}
+// Levels whose kernels read tiles so far apart.
+uint levels_read(int apart) {
+  uint read = 0u;
+  for (int k = 0; k < GLOAM_DOF_LEVELS; ++k) read |= apart <= spreads[k] ? 1u << k : 0u;
+  return read;
 }
 
 #endif
