@@ -20,10 +20,12 @@ void add_dof_passes(FrameBuilder& frame, const DepthOfField& values, const Lens&
       set_dof_levels({frame.view().width, frame.view().height}, inputs.knobs, inputs.bokeh, inputs.constants);
   inputs.constants.coc_offset = static_cast<float>(lens.offset_px);
   inputs.constants.coc_slope = static_cast<float>(lens.slope_px);
+  set_dof_workgroups(inputs);
   inputs.block = frame.upload_uniform(inputs.constants);
   inputs.depth = front_depth(frame);
-  DofFrame dof{inputs, add_dof_tile_passes(frame, inputs)};
+  DofFrame dof{inputs, add_dof_bounds_pass(frame, inputs)};
   const DofSprites sprites = add_dof_sprite_passes(frame, dof);
+  add_dof_list_passes(frame, inputs, sprites, dof.tiles);
   const DofLayers layers = add_dof_prefilter_pass(frame, dof, sprites);
   add_dof_compose_pass(frame, dof, add_dof_gather_passes(frame, dof, layers), sprites);
   frame.put(dof);
@@ -33,14 +35,17 @@ void list_dof_pipelines(const DofKnobs& knobs, bool threads_in_turn, PipelineLis
   const auto add = [&](const ComputeProgram& program) { list.push_back(pipeline_desc(program, "depth_of_field")); };
   for (const ComputeProgram& program : {dof_reset_program(), dof_bounds_program(), dof_find_sprites_program(), dof_reach_sprites_program()})
     add(program);
+  for (std::uint32_t kind = 0; kind < GLOAM_DOF_COMPOSE_SPRITES; ++kind)
+    add(dof_compose_program(Bokeh::round, kind, knobs.full_resolution));
   for (const Bokeh bokeh : {Bokeh::round, Bokeh::hexagonal}) {
     add(dof_reach_program(bokeh));
     add(dof_list_program(bokeh));
     for (const bool second : {false, true}) {
-      add(dof_prefilter_program(bokeh, second, threads_in_turn));
+      add(dof_prefilter_program(bokeh, second, false, threads_in_turn));
+      if (knobs.full_resolution) add(dof_prefilter_program(bokeh, second, true, threads_in_turn));
       add(dof_gather_program(knobs.cache, bokeh, second, threads_in_turn));
-      add(dof_compose_program(bokeh, second));
     }
+    add(dof_compose_program(bokeh, GLOAM_DOF_COMPOSE_SPRITES, knobs.full_resolution));
   }
 }
 

@@ -20,12 +20,12 @@ struct DofLayers {
   ImageRef near;  ///< rgba16f: prefilter.comp; gathered: light multiplied by its share in alpha
 };
 
-/// Specialisation constants of the passes over listed tiles, with one more.
-[[nodiscard]] inline gpu::SpecConstants dof_constants(Bokeh bokeh, const char* name, bool value, bool threads_in_turn) {
-  return {{"kHexagonal", bokeh == Bokeh::hexagonal ? 1u : 0u},
-          {name, value ? 1u : 0u},
-          {"kThreads", threads_in_turn ? GLOAM_DOF_THREADS_IN_TURN : GLOAM_DOF_THREADS}};
+/// Threads of a workgroup over listed tiles.
+[[nodiscard]] constexpr std::int32_t dof_threads(bool threads_in_turn) {
+  return threads_in_turn ? GLOAM_DOF_THREADS_IN_TURN : GLOAM_DOF_THREADS;
 }
+/// The value of the specialisation constant kHexagonal.
+[[nodiscard]] constexpr std::uint32_t dof_hexagonal(Bokeh bokeh) { return bokeh == Bokeh::hexagonal ? 1u : 0u; }
 
 /// Constants and images that the passes of a view read.
 struct DofInputs {

@@ -105,9 +105,10 @@ class DepthOfFieldModule final : public Module {
       shaders::DofList list[GLOAM_DOF_LISTS];
     };
     const Lists lists = result.value<Lists>();
-    const std::uint32_t near = lists.list[GLOAM_DOF_COMPOSE_BOTH].count;
-    sink.count("dof.tiles", lists.list[GLOAM_DOF_COMPOSE_FAR].count + near);
-    sink.count("dof.tiles_near", near);
+    std::uint32_t composed = 0;
+    for (int kind = 0; kind < GLOAM_DOF_COMPOSE_KINDS; ++kind) composed += lists.list[GLOAM_DOF_COMPOSE + kind].count;
+    sink.count("dof.tiles", composed);
+    sink.count("dof.tiles_near", lists.list[GLOAM_DOF_NEAR_TILES].count);
     sink.count("dof.tiles_coarser", lists.list[GLOAM_DOF_COARSER].count);
     sink.count("dof.sprites", lists.list[GLOAM_DOF_SPRITES].count);
     for (int i = 0; i < GLOAM_DOF_LISTS; ++i) sink.count("dof.list" + std::to_string(i), lists.list[i].count);

@@ -21,9 +21,10 @@
 /// share, so few are faster.
 #define GLOAM_DOF_THREADS 64
 #define GLOAM_DOF_THREADS_IN_TURN 8
-/// Bits of a gather's work. Below them: the greatest square of the distance of a texel that a kernel reads.
-#define GLOAM_DOF_FILLS 256  // the tile has pixels before the focus, behind which the far layer is filled in
-#define GLOAM_DOF_EMPTY 512  // the tile's texels are set to zero
+/// A gather's work: the greatest square of the distance of a texel that a kernel reads, then the same of texels that
+/// fill in the far layer behind pixels before the focus, times GLOAM_DOF_FILLS; 0: there are no such pixels.
+#define GLOAM_DOF_FILLS 256
+#define GLOAM_DOF_EMPTY 65536  // the tile's texels are set to zero
 /// What a prefilter writes: bits. A tile without circles before the focus has zeros in the near layer.
 #define GLOAM_DOF_WANTS_FAR 1
 #define GLOAM_DOF_WANTS_NEAR 2
@@ -35,18 +36,25 @@
 /// Most sprites that reach a tile.
 #define GLOAM_DOF_REACHING_SPRITES 144
 
-/// Lists of tiles, by the pass that runs in them. The first four hold pairs of a tile and a level.
-#define GLOAM_DOF_PREFILTER_FINE 0    // of level 0
-#define GLOAM_DOF_PREFILTER_COARSE 1  // of all other levels
-#define GLOAM_DOF_FAR 2               // gathers of the far layer
-#define GLOAM_DOF_NEAR 3              // gathers of the near layer
-#define GLOAM_DOF_COMPOSE_FAR 4       // tiles that no near layer reaches
-#define GLOAM_DOF_COMPOSE_BOTH 5
+/// Lists of tiles, by the pass that runs in them. Of the first ones there is one for each level: list + level.
+#define GLOAM_DOF_PREFILTER 0        // tiles without sprites and without pixels that the level blurs before the focus
+#define GLOAM_DOF_PREFILTER_MORE 5   // other tiles
+#define GLOAM_DOF_FAR 10             // gathers of the far layer
+#define GLOAM_DOF_NEAR 15            // gathers of the near layer
+#define GLOAM_DOF_COMPOSE 20         // + what is composed
+// What is composed in a tile. Fine levels are 0 and 1.
+#define GLOAM_DOF_COMPOSE_COARSE 0  // coarse levels of the far layer
+#define GLOAM_DOF_COMPOSE_FAR 1     // any levels of the far layer
+#define GLOAM_DOF_COMPOSE_NEAR 2    // fine levels of the near layer
+#define GLOAM_DOF_COMPOSE_BOTH 3    // any levels of both
+#define GLOAM_DOF_COMPOSE_SPRITES 4 // these and sprites
+#define GLOAM_DOF_COMPOSE_KINDS 5
 // These only count.
-#define GLOAM_DOF_COARSER 6   // tiles with circles greater than dof.radius
-#define GLOAM_DOF_SPRITES 7   // sprites
-#define GLOAM_DOF_OVERFLOW 8  // tiles with more bright pixels than sprites, and tiles that more sprites reach than fit
-#define GLOAM_DOF_LISTS 9
+#define GLOAM_DOF_NEAR_TILES 25  // tiles that the near layer reaches
+#define GLOAM_DOF_COARSER 26     // tiles with circles greater than dof.radius
+#define GLOAM_DOF_SPRITES 27     // sprites
+#define GLOAM_DOF_OVERFLOW 28  // tiles with more bright pixels than sprites, and tiles that more sprites reach than fit
+#define GLOAM_DOF_LISTS 29
 
 GLOAM_SHARED_BEGIN
 
@@ -68,11 +76,13 @@ struct DofConstants {
   float to[GLOAM_DOF_LEVELS];
   ivec2 corner[GLOAM_DOF_LEVELS];  // of a level in the image of all levels
   int taps[GLOAM_DOF_LEVELS];      // the farthest texel that a kernel of the level reads
+  int prefilter_tiles[GLOAM_DOF_LEVELS];  // of a workgroup of the prefilter
+  int gather_tiles[GLOAM_DOF_LEVELS];     // of a workgroup of the gathers
   int first_level;
   int last_level;
 };
 
-/// A list of tiles: arguments of an indirect dispatch with one workgroup for each, then their number.
+/// A list of tiles: arguments of an indirect dispatch, then their number.
 struct DofList {
   uint groups_x;
   uint groups_y;
@@ -80,11 +90,14 @@ struct DofList {
   uint count;
 };
 
-/// An item of a list: a tile at a level.
+/// A tile of a list.
 struct DofEntry {
   uint place;  // x | y << 16
+  int work;    // of gathers: GLOAM_DOF_FILLS and so on; of prefilters: GLOAM_DOF_WANTS_FAR and so on
+};
+/// Push constants of the passes over the tiles of one level.
+struct DofLevel {
   int level;
-  int work;  // of gathers: GLOAM_DOF_FILLS and so on; of prefilters: GLOAM_DOF_WANTS_FAR and so on
 };
 
 /// Circles of the pixels of a tile. Masks: bit k for level k.

@@ -8,13 +8,21 @@
 
 namespace gloam {
 
-ComputeProgram dof_compose_program(Bokeh bokeh, bool near) {
-  return {shaders::depth_of_field::compose_comp, dof_constants(bokeh, "kNear", near, false)};
+ComputeProgram dof_compose_program(Bokeh bokeh, std::uint32_t kind, bool full_resolution) {
+  return {shaders::depth_of_field::compose_comp,
+          {// Only sprites have the shape of the aperture.
+           {"kHexagonal", kind == GLOAM_DOF_COMPOSE_SPRITES ? dof_hexagonal(bokeh) : 0u},
+           {"kKind", kind},
+           {"kThreads", GLOAM_DOF_THREADS},
+           {"kFull", full_resolution ? 1u : 0u}}};
 }
 
 void add_dof_compose_pass(FrameBuilder& frame, const DofFrame& dof, const DofLayers& gathered,
                           const DofSprites& sprites) {
-  ComputePass pass(frame, "dof_compose", dof_compose_program(dof.inputs.bokeh, false));
+  const auto program = [&](std::uint32_t kind) {
+    return dof_compose_program(dof.inputs.bokeh, kind, dof.inputs.knobs.full_resolution);
+  };
+  ComputePass pass(frame, "dof_compose", program(0));
   LitOutput& lit = frame.get<LitOutput>();
   pass.read("dof", dof.inputs.block);
   pass.read("depth_image", dof.inputs.depth);
@@ -26,9 +34,10 @@ void add_dof_compose_pass(FrameBuilder& frame, const DofFrame& dof, const DofLay
   pass.read("reaching", sprites.reaching);
   lit.color = pass.write("lit_image", lit.color);
   read_dof_lists(pass, dof.tiles);
-  dispatch_dof_list(pass, dof.tiles, GLOAM_DOF_COMPOSE_FAR);
-  pass.use(dof_compose_program(dof.inputs.bokeh, true));
-  dispatch_dof_list(pass, dof.tiles, GLOAM_DOF_COMPOSE_BOTH);
+  for (std::uint32_t kind = 0; kind < GLOAM_DOF_COMPOSE_KINDS; ++kind) {
+    pass.use(program(kind));
+    dispatch_dof_list(pass, dof.tiles, GLOAM_DOF_COMPOSE + kind);
+  }
 }
 
 }  // namespace gloam

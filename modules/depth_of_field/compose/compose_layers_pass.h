@@ -7,7 +7,8 @@
 
 namespace gloam {
 
-[[nodiscard]] ComputeProgram dof_compose_program(Bokeh bokeh, bool near);
+/// kind: GLOAM_DOF_COMPOSE_COARSE and so on.
+[[nodiscard]] ComputeProgram dof_compose_program(Bokeh bokeh, std::uint32_t kind, bool full_resolution);
 
 /// Lays the gathered layers and the sprites over LitOutput, in place.
 void add_dof_compose_pass(FrameBuilder& frame, const DofFrame& dof, const DofLayers& gathered,

@@ -102,7 +102,7 @@ class DofTwin {
   struct Tile {
     unsigned far = 0, near = 0, fill = 0;
     bool open = false;
-    double near_radius = 0.0, greatest = 0.0;
+    double near_radius = 0.0;
     unsigned composed_far = 0, composed_near = 0;
   };
   [[nodiscard]] double lowest(int k) const { return k == c_.first_level ? kTwinFocus : double{c_.from[k - 1]}; }
@@ -124,7 +124,6 @@ class DofTwin {
         }
         tile.open = tile.open || circle > -kTwinFocus;
         if (circle <= -kTwinFocus) tile.near_radius = std::max(tile.near_radius, -circle);
-        tile.greatest = std::max(tile.greatest, std::abs(circle));
       }
     for (int y = 0; y < down_; ++y)
       for (int x = 0; x < across_; ++x) reach_tile(x, y);
@@ -271,7 +270,7 @@ class DofTwin {
     const Level& level = levels_[k];
     const dvec4 own = level.far[level.at(x, y)];
     dvec4 front(0.0), back(0.0), fill(0.0);
-    const int texels = fill_texels(tiles_[static_cast<std::size_t>(tile_of(x << k, y << k))].greatest, k);
+    const int texels = fill_texels(tiles_[static_cast<std::size_t>(tile_of(x << k, y << k))].near_radius, k);
     for (int dy = -c_.taps[k]; dy <= c_.taps[k]; ++dy)
       for (int dx = -c_.taps[k]; dx <= c_.taps[k]; ++dx) {
         const dvec4 other = level.far[level.at(x + dx, y + dy)];

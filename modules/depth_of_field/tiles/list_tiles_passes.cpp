@@ -20,18 +20,17 @@ BufferRef buffer_of(FrameBuilder& frame, const char* name, std::uint64_t bytes) 
 ComputeProgram dof_reset_program() { return {shaders::depth_of_field::reset_comp}; }
 ComputeProgram dof_bounds_program() { return {shaders::depth_of_field::bounds_comp}; }
 ComputeProgram dof_reach_program(Bokeh bokeh) {
-  return {shaders::depth_of_field::reach_comp, {{"kHexagonal", bokeh == Bokeh::hexagonal ? 1u : 0u}}};
+  return {shaders::depth_of_field::reach_comp, {{"kHexagonal", dof_hexagonal(bokeh)}}};
 }
 ComputeProgram dof_list_program(Bokeh bokeh) {
-  return {shaders::depth_of_field::list_comp, {{"kHexagonal", bokeh == Bokeh::hexagonal ? 1u : 0u}}};
+  return {shaders::depth_of_field::list_comp, {{"kHexagonal", dof_hexagonal(bokeh)}}};
 }
 
 BufferRef dof_tile_buffer(FrameBuilder& frame, const DofInputs& inputs, const char* name, std::uint64_t size) {
   return buffer_of(frame, name, std::uint64_t{inputs.constants.tiles.x} * inputs.constants.tiles.y * size);
 }
 
-DofTiles add_dof_tile_passes(FrameBuilder& frame, const DofInputs& inputs) {
-  const uvec2 size = inputs.constants.tiles;
+DofTiles add_dof_bounds_pass(FrameBuilder& frame, const DofInputs& inputs) {
   DofTiles tiles;
   ComputePass bounds(frame, "dof_tile_bounds", dof_reset_program());
   tiles.lists = bounds.write("lists", buffer_of(frame, "dof_lists", GLOAM_DOF_LISTS * sizeof(shaders::DofList)));
@@ -43,8 +42,12 @@ DofTiles add_dof_tile_passes(FrameBuilder& frame, const DofInputs& inputs) {
   bounds.read("depth_image", inputs.depth);
   tiles.bounds =
       bounds.write("bounds", dof_tile_buffer(frame, inputs, "dof_tile_bounds", sizeof(shaders::DofTileBounds)));
-  bounds.dispatch_over(size);
+  bounds.dispatch_over(inputs.constants.tiles);
+  return tiles;
+}
 
+void add_dof_list_passes(FrameBuilder& frame, const DofInputs& inputs, const DofSprites& sprites, DofTiles& tiles) {
+  const uvec2 size = inputs.constants.tiles;
   ComputePass reach(frame, "dof_tile_reach", dof_reach_program(inputs.bokeh));
   reach.read("dof", inputs.block);
   reach.read("bounds", tiles.bounds);
@@ -57,12 +60,12 @@ DofTiles add_dof_tile_passes(FrameBuilder& frame, const DofInputs& inputs) {
   list.read("bounds", tiles.bounds);
   list.read("reached", tiles.reach);
   list.read("picture", tiles.picture);
+  list.read("tile_sprites", sprites.tiles);
+  list.read("reaching", sprites.reaching);
   tiles.lists = list.write("lists", tiles.lists);
-  tiles.entries =
-      list.write("entries", dof_tile_buffer(frame, inputs, "dof_list_entries",
-                                            GLOAM_DOF_LISTS * GLOAM_DOF_LEVELS * sizeof(shaders::DofEntry)));
+  tiles.entries = list.write("entries", dof_tile_buffer(frame, inputs, "dof_list_entries",
+                                                        GLOAM_DOF_LISTS * sizeof(shaders::DofEntry)));
   list.dispatch_over(size);
-  return tiles;
 }
 
 void read_dof_lists(ComputePass& pass, const DofTiles& tiles) {

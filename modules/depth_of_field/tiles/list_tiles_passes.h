@@ -16,12 +16,14 @@ namespace gloam {
 [[nodiscard]] BufferRef dof_tile_buffer(FrameBuilder& frame, const DofInputs& inputs, const char* name,
                                         std::uint64_t size);
 
-/// Finds the tiles in which something is blurred, and lists those in which each later pass runs.
-[[nodiscard]] DofTiles add_dof_tile_passes(FrameBuilder& frame, const DofInputs& inputs);
+/// Finds the circles of each tile.
+[[nodiscard]] DofTiles add_dof_bounds_pass(FrameBuilder& frame, const DofInputs& inputs);
+/// Lists the tiles in which each later pass runs.
+void add_dof_list_passes(FrameBuilder& frame, const DofInputs& inputs, const DofSprites& sprites, DofTiles& tiles);
 
 /// Binds list and entries of a pass over listed tiles (list_api.glsl).
 void read_dof_lists(ComputePass& pass, const DofTiles& tiles);
-/// One workgroup for each tile of a list (GLOAM_DOF_…).
+/// Runs over the tiles of a list (GLOAM_DOF_…).
 void dispatch_dof_list(ComputePass& pass, const DofTiles& tiles, std::uint32_t list);
 
 }  // namespace gloam

@@ -14,8 +14,11 @@
 // that is not finite counts as absent, and sprites take theirs.
 
 layout(local_size_x_id = 2) in;
-layout(constant_id = 1) const uint kFine = 0u;  // 1: level 0
+layout(constant_id = 1) const uint kMore = 0u;  // 1: tiles with sprites or pixels before the focus
 layout(constant_id = 2) const int kThreads = GLOAM_DOF_THREADS;
+layout(constant_id = 3) const uint kFine = 0u;  // 1: level 0
+
+layout(push_constant, scalar) uniform Level { DofLevel pushed; };
 
 layout(set = 0, binding = 0, scalar) uniform Dof { DofConstants dof; };
 layout(set = 0, binding = 1) uniform sampler2D depth_image;
@@ -35,7 +38,7 @@ int level;
 LevelRange range;
 float
     least;  // circles behind the focus that are much smaller than a texel count as in focus: they would spread too far
-bool has_near, has_sprites;
+bool has_near;
 vec3 far_light, focus_light;
 float far_weight, far_circle, far_bright, focus_weight, near_weight, near_circle;
 vec4 near;
@@ -51,7 +54,7 @@ void add(ivec2 pixel, float depth) {
   float counts = is_finite(light) ? 1.0 : 0.0;
   float coc = circle_of_confusion(depth), circle = abs(coc);
   light = counts > 0.0 ? light : vec3(0.0);
-  if (has_sprites) light *= 1.0 - sprite_share(light, coc, around);
+  if (kMore != 0u) light *= 1.0 - sprite_share(light, coc, around);
   // Light counts by its area. Circles that are hardly blurred count less.
   float far = coc >= least ? counts * min(coc, 1.0) : 0.0;
   far_light += far * light;
@@ -63,7 +66,7 @@ void add(ivec2 pixel, float depth) {
   float focused = coc > -kInFocus && coc < least ? counts : 0.0;
   focus_light += focused * light;
   focus_weight += focused;
-  if (has_near) {
+  if (kMore != 0u && has_near) {
     float before = coc <= -kInFocus ? 1.0 : 0.0,
           part = counts * before * level_share(range, circle / GLOAM_DOF_NEAR_FINER);
     near += part * vec4(light, 1.0);
@@ -103,21 +106,23 @@ void add_block(ivec2 corner, bool fine, int wanted) {
 }
 
 void main() {
+  level = kFine != 0u ? 0 : pushed.level;
+  // Tiles of few texels share a workgroup.
+  int side = GLOAM_DOF_TILE >> level, items = kFine != 0u ? 64 : side * side;
+  int number = int(gl_LocalInvocationIndex), slot = number / items, tiles = dof.prefilter_tiles[level];
+  uint list = uint(level + (kMore != 0u ? GLOAM_DOF_PREFILTER_MORE : GLOAM_DOF_PREFILTER));
   DofTile tile;
-  if (!listed_tile(kFine != 0u ? uint(GLOAM_DOF_PREFILTER_FINE) : uint(GLOAM_DOF_PREFILTER_COARSE), tile)) return;
-  around = tile_sprites[uint(tile.place.y) * dof.tiles.x + uint(tile.place.x)].surroundings;
+  if (!listed_tile(list, list_group() * uint(tiles) + uint(slot), tile)) return;
+  around = kMore != 0u ? tile_sprites[uint(tile.place.y) * dof.tiles.x + uint(tile.place.x)].surroundings : -1.0;
   int wanted = tile.work;
-  level = kFine != 0u ? 0 : tile.level;
   range = level_range(level);
   least = level == dof.first_level ? kInFocus : max(0.5 * dof.from[max(level - 1, 0)], kInFocus);
   has_near = (wanted & GLOAM_DOF_HAS_NEAR) != 0;
-  has_sprites = around >= 0.0;
   ivec2 first = tile.place * GLOAM_DOF_TILE;
   // Tiles that only lie beside circles before the focus.
   bool reads = wanted != GLOAM_DOF_WANTS_NEAR;
-  int first_item = int(gl_LocalInvocationIndex);
   if (kFine != 0u) {
-    for (int block = first_item; block < 64; block += kThreads) {
+    for (int block = number; block < items; block += kThreads) {
       ivec2 pixel = first + 2 * ivec2(block & 7, block >> 3);
       if (reads) {
         add_block(pixel, true, wanted);
@@ -128,9 +133,9 @@ void main() {
     }
     return;
   }
-  int side = GLOAM_DOF_TILE >> level, scale = 1 << level;
-  for (int number = first_item; number < side * side; number += kThreads) {
-    ivec2 texel = ivec2(number & (side - 1), number >> (4 - level));
+  int scale = 1 << level, item = number - slot * items;
+  do {
+    ivec2 texel = ivec2(item & (side - 1), item >> (4 - level));
     clear();
     // Tested at the end: a processor goes once more through a loop that tests first.
     int blocks = reads ? scale * scale / 4 : 0, block = 0;
@@ -138,5 +143,5 @@ void main() {
         add_block(first + texel * scale + 2 * ivec2(block & (scale / 2 - 1), block >> (level - 1)), false, wanted);
       while (++block < blocks);
     store(tile.place * side + texel, float(scale * scale), wanted);
-  }
+  } while ((item += kThreads) < items);
 }

@@ -12,7 +12,14 @@
 
 layout(local_size_x_id = 2) in;
 layout(constant_id = 2) const int kThreads = GLOAM_DOF_THREADS;
-layout(constant_id = 1) const uint kNear = 0u;  // 1: tiles that the near layer reaches
+layout(constant_id = 1) const uint kKind = GLOAM_DOF_COMPOSE_SPRITES;  // what is composed
+layout(constant_id = 3) const uint kFull = 0u;                         // 1: level 0 is used
+const bool kSprites = kKind == GLOAM_DOF_COMPOSE_SPRITES;
+const bool kBoth = kSprites || kKind == GLOAM_DOF_COMPOSE_BOTH;
+const bool kFarFine = kBoth || kKind == GLOAM_DOF_COMPOSE_FAR;
+const bool kFarCoarse = kFarFine || kKind == GLOAM_DOF_COMPOSE_COARSE;
+const bool kNearFine = kBoth || kKind == GLOAM_DOF_COMPOSE_NEAR;
+const bool kNearCoarse = kBoth;
 
 layout(set = 0, binding = 0, scalar) uniform Dof { DofConstants dof; };
 layout(set = 0, binding = 1) uniform sampler2D depth_image;
@@ -32,7 +39,6 @@ layout(set = 0, binding = 8, rgba16f) uniform image2D lit_image;
 DofTileReach reach;
 uint first_sprite, sprite_count;
 float around;
-bool has_sprites;
 
 // Four pixels: 0 and 1 above, 2 and 3 below.
 struct Quad {
@@ -93,10 +99,10 @@ void add_far(inout Quad sum, Quad found, int level, vec4 circles) {
 
 Quad far_light(ivec2 pixel, vec4 circles) {
   Quad sum = no_quad();
-  if ((reach.far & 1u) != 0u) add_far(sum, quad_of_pixels(far_image, pixel), 0, circles);
-  if ((reach.far & 2u) != 0u) add_far(sum, quad_of_level_1(far_image, pixel), 1, circles);
+  if (kFarFine && kFull != 0u && (reach.far & 1u) != 0u) add_far(sum, quad_of_pixels(far_image, pixel), 0, circles);
+  if (kFarFine && (reach.far & 2u) != 0u) add_far(sum, quad_of_level_1(far_image, pixel), 1, circles);
   uint left = reach.far & ~3u;
-  if (left != 0u) do {
+  if (kFarCoarse && left != 0u) do {
       add_far(sum, quad_of_level(far_image, pixel, findLSB(left)), findLSB(left), circles);
       left &= left - 1u;
     } while (left != 0u);  // tested at the end: a processor goes once more through a loop that tests first
@@ -111,11 +117,10 @@ void add_near(inout Quad sum, Quad found) {
 }
 Quad near_light(ivec2 pixel) {
   Quad sum = no_quad();
-  if (kNear == 0u) return sum;
-  if ((reach.near & 1u) != 0u) add_near(sum, quad_of_pixels(near_image, pixel));
-  if ((reach.near & 2u) != 0u) add_near(sum, quad_of_level_1(near_image, pixel));
+  if (kNearFine && kFull != 0u && (reach.near & 1u) != 0u) add_near(sum, quad_of_pixels(near_image, pixel));
+  if (kNearFine && (reach.near & 2u) != 0u) add_near(sum, quad_of_level_1(near_image, pixel));
   uint left = reach.near & ~3u;
-  if (left != 0u) do {
+  if (kNearCoarse && left != 0u) do {
       add_near(sum, quad_of_level(near_image, pixel, findLSB(left)));
       left &= left - 1u;
     } while (left != 0u);
@@ -132,7 +137,7 @@ void add_sprite(DofSprite sprite, vec2 apart, float radius, float share, float c
   near.rgb += sprite.coc > 0.0 ? vec3(0.0) : seen * sprite.light;
 }
 void add_sprites(ivec2 pixel, vec4 coc, inout Quad far, inout Quad near) {
-  if (sprite_count == 0u) return;
+  if (!kSprites || sprite_count == 0u) return;
   uint i = 0u;
   do {
     DofSprite sprite = sprites[reaching[first_sprite + i]];
@@ -150,7 +155,7 @@ void compose(ivec2 pixel, float coc, vec4 far, vec4 near, vec3 discs, vec3 near_
   vec4 light = imageLoad(lit_image, pixel);
   bool counts = is_finite(light.rgb), blurred = abs(coc) >= kInFocus;
   vec3 sharp = counts ? light.rgb : vec3(0.0);
-  if (has_sprites) sharp *= 1.0 - sprite_share(sharp, coc, around);
+  if (kSprites) sharp *= 1.0 - sprite_share(sharp, coc, around);
   // Light that is not finite does not stay in what is blurred. If there is no other light near, it becomes black.
   if (!counts && far.a > 0.0) far /= far.a;
   near /= max(near.a, 1.0);
@@ -178,13 +183,12 @@ void compose_quad(ivec2 pixel) {
 
 void main() {
   DofTile tile;
-  if (!listed_tile(kNear != 0u ? uint(GLOAM_DOF_COMPOSE_BOTH) : uint(GLOAM_DOF_COMPOSE_FAR), tile)) return;
+  if (!listed_tile(uint(GLOAM_DOF_COMPOSE) + kKind, list_group(), tile)) return;
   uint index = uint(tile.place.y) * dof.tiles.x + uint(tile.place.x);
   reach = reached[index];
-  around = tile_sprites[index].surroundings;
-  has_sprites = around >= 0.0;
+  around = kSprites ? tile_sprites[index].surroundings : -1.0;
   first_sprite = index * uint(GLOAM_DOF_REACHING_SPRITES + 1) + 1u;
-  sprite_count = reaching[first_sprite - 1u];
+  sprite_count = kSprites ? reaching[first_sprite - 1u] : 0u;
   int quad = int(gl_LocalInvocationIndex);
   compose_quad(tile.place * GLOAM_DOF_TILE + 2 * ivec2(quad & 7, quad >> 3));
 }

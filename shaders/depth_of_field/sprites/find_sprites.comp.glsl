@@ -21,13 +21,23 @@ layout(set = 0, binding = 6, scalar) buffer Lists { DofList lists[]; };
 ivec2 first;
 ivec2 inside(ivec2 pixel) { return min(pixel, ivec2(dof.size) - 1); }
 
-// From the mean of the fourth roots of a quarter of the pixels: bright pixels hardly raise it.
-float surroundings() {
+float finite_brightness(ivec2 pixel) {
+  vec3 light = texelFetch(lit_image, inside(pixel), 0).rgb;
+  return is_finite(light) ? max(brightness(light), 0.0) : 0.0;
+}
+
+// From the mean of the fourth roots of a quarter of the pixels: bright pixels hardly raise it. brightest: of all pixels.
+float surroundings(out float brightest) {
   float roots = 0.0;
-  for (int i = 0; i < 64; ++i) {
-    vec3 light = texelFetch(lit_image, inside(first + 2 * ivec2(i & 7, i >> 3)), 0).rgb;
-    roots += is_finite(light) ? sqrt(sqrt(max(brightness(light), 0.0))) : 0.0;
-  }
+  brightest = 0.0;
+  int i = 0;
+  do {
+    ivec2 pixel = first + 2 * ivec2(i & 7, i >> 3);
+    float one = finite_brightness(pixel);
+    float others = max(finite_brightness(pixel + ivec2(0, 1)), finite_brightness(pixel + ivec2(1, 1)));
+    brightest = max(max(brightest, one), max(others, finite_brightness(pixel + ivec2(1, 0))));
+    roots += sqrt(sqrt(one));
+  } while (++i < 64);
   float mean = roots / 64.0;
   return mean * mean * (mean * mean);
 }
@@ -81,9 +91,12 @@ void main() {
   first = ivec2(tile) * GLOAM_DOF_TILE;
   // Level 0 blurs pixels one by one, so there sprites change nothing.
   bool blurred = (bounds[index].far | bounds[index].near) > 1u;
-  float around = blurred ? surroundings() : -1.0;
+  float around = -1.0, brightest = 0.0;
+  if (blurred) around = surroundings(brightest);
+  // Few tiles have a pixel that sprite_share() can choose.
+  bool has_bright = blurred && brightest > 40.0 * around;
   count = 0u;
-  for (int i = 0; i < (blurred ? 16 : 0); ++i) {
+  for (int i = 0; i < (has_bright ? 16 : 0); ++i) {
     ivec2 corner = first + 4 * ivec2(i & 3, i >> 2);
     Bright wide = no_light();
     for (int j = 0; j < 4; ++j) {

@@ -14,17 +14,27 @@ layout(set = 0, binding = 0, scalar) uniform Dof { DofConstants dof; };
 layout(set = 0, binding = 1, scalar) readonly buffer Bounds { DofTileBounds bounds[]; };
 layout(set = 0, binding = 2, scalar) readonly buffer Reach { DofTileReach reached[]; };
 layout(set = 0, binding = 3, scalar) readonly buffer PictureBounds { DofPictureBounds picture; };
-layout(set = 0, binding = 4, scalar) buffer Lists { DofList lists[]; };
-// Of each list, room for all tiles and levels.
-layout(set = 0, binding = 5, scalar) writeonly buffer Entries { DofEntry entries[]; };
+layout(set = 0, binding = 4, scalar) readonly buffer TileSprites { DofTileSprites tile_sprites[]; };
+layout(set = 0, binding = 5, scalar) readonly buffer Reaching { uint reaching[]; };
+layout(set = 0, binding = 6, scalar) buffer Lists { DofList lists[]; };
+// Of each list, room for all tiles.
+layout(set = 0, binding = 7, scalar) writeonly buffer Entries { DofEntry entries[]; };
 
 #include "shaders/depth_of_field/tiles/spread.glsl"
 
-void append(uint list, DofEntry entry) {
-  uint index = atomicAdd(lists[list].count, 1u);
-  atomicMax(lists[list].groups_x, min(index + 1u, uint(GLOAM_DOF_ROW)));
-  atomicMax(lists[list].groups_y, index / uint(GLOAM_DOF_ROW) + 1u);
-  entries[list * dof.tiles.x * dof.tiles.y * uint(GLOAM_DOF_LEVELS) + index] = entry;
+// tiles: of a workgroup.
+void append(uint list, int tiles, DofEntry entry) {
+  uint index = atomicAdd(lists[list].count, 1u), group = index / uint(tiles);
+  atomicMax(lists[list].groups_x, min(group + 1u, uint(GLOAM_DOF_ROW)));
+  atomicMax(lists[list].groups_y, group / uint(GLOAM_DOF_ROW) + 1u);
+  entries[list * dof.tiles.x * dof.tiles.y + index] = entry;
+}
+
+uint composed_kind(DofTileReach reach, bool sprites) {
+  const uint fine = 3u;
+  if (sprites) return uint(GLOAM_DOF_COMPOSE_SPRITES);
+  if (reach.near == 0u) return (reach.far & fine) == 0u ? uint(GLOAM_DOF_COMPOSE_COARSE) : uint(GLOAM_DOF_COMPOSE_FAR);
+  return reach.far == 0u && (reach.near & ~fine) == 0u ? uint(GLOAM_DOF_COMPOSE_NEAR) : uint(GLOAM_DOF_COMPOSE_BOTH);
 }
 
 void main() {
@@ -50,29 +60,32 @@ void main() {
   DofTileBounds own = bounds[index];
   DofTileReach own_reach = reached[index];
   uint place = uint(tile.x) | uint(tile.y) << 16;
+  bool sprites = tile_sprites[index].surroundings >= 0.0;
   for (int k = dof.first_level; k <= dof.last_level; ++k) {
     uint bit = 1u << k;
     uint wanted = ((far_layer & bit) != 0u ? uint(GLOAM_DOF_WANTS_FAR) : 0u) |
                   ((near_layer & bit) != 0u ? uint(GLOAM_DOF_WANTS_NEAR) : 0u) |
                   ((near_layer & own.near & bit) != 0u ? uint(GLOAM_DOF_HAS_NEAR) : 0u);
-    if (wanted != 0u)
-      append(k == 0 ? uint(GLOAM_DOF_PREFILTER_FINE) : uint(GLOAM_DOF_PREFILTER_COARSE),
-             DofEntry(place, k, int(wanted)));
+    bool more = sprites || (wanted & uint(GLOAM_DOF_HAS_NEAR)) != 0u;
+    uint prefilter = uint(k + (more ? GLOAM_DOF_PREFILTER_MORE : GLOAM_DOF_PREFILTER));
+    if (wanted != 0u) append(prefilter, dof.prefilter_tiles[k], DofEntry(place, int(wanted)));
     float greatest = k == dof.last_level ? dof.radius : dof.to[k];
-    bool fills = own.near_radius > 0.0;
-    int far_work = texels_of(kernel_radius(min(max(own.far_radius, own.near_radius), greatest), k)) |
-                   (fills ? GLOAM_DOF_FILLS : 0);
+    int far_work = own.far_radius > 0.0 ? texels_of(kernel_radius(min(own.far_radius, greatest), k)) : 0;
+    if (own.near_radius > 0.0)
+      far_work += GLOAM_DOF_FILLS * texels_of(kernel_radius(min(own.near_radius, greatest), k));
     float near_greatest = k == dof.last_level ? dof.radius : GLOAM_DOF_NEAR_FINER * dof.to[k];
     int near_work = texels_of(kernel_radius(min(own_reach.near_radius, near_greatest), k));
     // Beyond the tiles that are composed there is nothing to interpolate with.
     if (((far | own_reach.far) & bit) != 0u)
-      append(uint(GLOAM_DOF_FAR), DofEntry(place, k, (own_reach.far & bit) != 0u ? far_work : GLOAM_DOF_EMPTY));
+      append(uint(GLOAM_DOF_FAR + k), dof.gather_tiles[k],
+             DofEntry(place, (own_reach.far & bit) != 0u ? far_work : GLOAM_DOF_EMPTY));
     if (((near | own_reach.near) & bit) != 0u)
-      append(uint(GLOAM_DOF_NEAR), DofEntry(place, k, (own_reach.near & bit) != 0u ? near_work : GLOAM_DOF_EMPTY));
+      append(uint(GLOAM_DOF_NEAR + k), dof.gather_tiles[k],
+             DofEntry(place, (own_reach.near & bit) != 0u ? near_work : GLOAM_DOF_EMPTY));
   }
-  if (own_reach.near != 0u)
-    append(uint(GLOAM_DOF_COMPOSE_BOTH), DofEntry(place, 0, 0));
-  else if (own_reach.far != 0u)
-    append(uint(GLOAM_DOF_COMPOSE_FAR), DofEntry(place, 0, 0));
+  bool reached_by_sprites = reaching[index * uint(GLOAM_DOF_REACHING_SPRITES + 1)] > 0u;
+  if ((own_reach.near | own_reach.far) != 0u)
+    append(uint(GLOAM_DOF_COMPOSE) + composed_kind(own_reach, sprites || reached_by_sprites), 1, DofEntry(place, 0));
+  if (own_reach.near != 0u) atomicAdd(lists[GLOAM_DOF_NEAR_TILES].count, 1u);
   if (max(own.far_radius, own.near_radius) > dof.limit) atomicAdd(lists[GLOAM_DOF_COARSER].count, 1u);
 }
