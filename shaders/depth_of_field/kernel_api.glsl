@@ -48,9 +48,9 @@ float kernel_radius(float circle, int level) {
   return max(inner * sqrt(max(missing, 0.0)), 0.5);
 }
 
-// The greatest square of the distance of a texel that has a weight in a kernel.
+// The greatest square of the distance of a texel that has a weight in a kernel. Layers store radii in eighths.
 int texels_of(float radius) {
-  float edge = (radius + 0.5) * (kHexagonal == 0u ? 1.0 : 1.0 / kInnerRadius) * 1.001;
+  float edge = (radius + 0.5625) * (kHexagonal == 0u ? 1.0 : 1.0 / kInnerRadius) * 1.001;
   return int(ceil(edge * edge)) - 1;
 }
 

@@ -56,7 +56,7 @@ double dof_kernel_radius(Bokeh bokeh, double circle_px, int level) {
 
 int dof_texels(Bokeh bokeh, double kernel_radius) {
   const double across = bokeh == Bokeh::round ? 1.0 : 1.0 / static_cast<double>(kInner);
-  const double edge = (kernel_radius + 0.5) * across * 1.001;
+  const double edge = (kernel_radius + 0.5625) * across * 1.001;
   return static_cast<int>(std::ceil(edge * edge)) - 1;
 }
 
