@@ -35,7 +35,9 @@ void list_dof_pipelines(const DofKnobs& knobs, bool threads_in_turn, PipelineLis
   const auto add = [&](const ComputeProgram& program) { list.push_back(pipeline_desc(program, "depth_of_field")); };
   for (const ComputeProgram& program : {dof_reset_program(), dof_bounds_program(), dof_find_sprites_program(), dof_reach_sprites_program()})
     add(program);
-  for (std::uint32_t kind = 0; kind < GLOAM_DOF_COMPOSE_SPRITES; ++kind)
+  for (const std::uint32_t kind :
+       {GLOAM_DOF_COMPOSE_ONE, GLOAM_DOF_COMPOSE_ONE + 1, GLOAM_DOF_COMPOSE_TWO, GLOAM_DOF_COMPOSE_FAR,
+        GLOAM_DOF_COMPOSE_NEAR, GLOAM_DOF_COMPOSE_BOTH})
     add(dof_compose_program(Bokeh::round, kind, knobs.full_resolution));
   for (const Bokeh bokeh : {Bokeh::round, Bokeh::hexagonal}) {
     add(dof_reach_program(bokeh));

@@ -43,18 +43,19 @@
 #define GLOAM_DOF_NEAR 15            // gathers of the near layer
 #define GLOAM_DOF_COMPOSE 20         // + what is composed
 // What is composed in a tile. Fine levels are 0 and 1.
-#define GLOAM_DOF_COMPOSE_COARSE 0  // coarse levels of the far layer
-#define GLOAM_DOF_COMPOSE_FAR 1     // any levels of the far layer
-#define GLOAM_DOF_COMPOSE_NEAR 2    // fine levels of the near layer
-#define GLOAM_DOF_COMPOSE_BOTH 3    // any levels of both
-#define GLOAM_DOF_COMPOSE_SPRITES 4 // these and sprites
-#define GLOAM_DOF_COMPOSE_KINDS 5
+#define GLOAM_DOF_COMPOSE_ONE 0      // + level: one level of the far layer, not 0
+#define GLOAM_DOF_COMPOSE_TWO 5      // + level: two coarse levels of the far layer, this and the next
+#define GLOAM_DOF_COMPOSE_FAR 10     // any levels of the far layer
+#define GLOAM_DOF_COMPOSE_NEAR 11    // fine levels of the near layer
+#define GLOAM_DOF_COMPOSE_BOTH 12    // any levels of both
+#define GLOAM_DOF_COMPOSE_SPRITES 13 // these and sprites
+#define GLOAM_DOF_COMPOSE_KINDS 14
 // These only count.
-#define GLOAM_DOF_NEAR_TILES 25  // tiles that the near layer reaches
-#define GLOAM_DOF_COARSER 26     // tiles with circles greater than dof.radius
-#define GLOAM_DOF_SPRITES 27     // sprites
-#define GLOAM_DOF_OVERFLOW 28  // tiles with more bright pixels than sprites, and tiles that more sprites reach than fit
-#define GLOAM_DOF_LISTS 29
+#define GLOAM_DOF_NEAR_TILES 34  // tiles that the near layer reaches
+#define GLOAM_DOF_COARSER 35     // tiles with circles greater than dof.radius
+#define GLOAM_DOF_SPRITES 36     // sprites
+#define GLOAM_DOF_OVERFLOW 37  // tiles with more bright pixels than sprites, and tiles that more sprites reach than fit
+#define GLOAM_DOF_LISTS 38
 
 GLOAM_SHARED_BEGIN
 

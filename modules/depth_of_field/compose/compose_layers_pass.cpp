@@ -22,7 +22,7 @@ void add_dof_compose_pass(FrameBuilder& frame, const DofFrame& dof, const DofLay
   const auto program = [&](std::uint32_t kind) {
     return dof_compose_program(dof.inputs.bokeh, kind, dof.inputs.knobs.full_resolution);
   };
-  ComputePass pass(frame, "dof_compose", program(0));
+  ComputePass pass(frame, "dof_compose", program(GLOAM_DOF_COMPOSE_FAR));
   LitOutput& lit = frame.get<LitOutput>();
   pass.read("dof", dof.inputs.block);
   pass.read("depth_image", dof.inputs.depth);
@@ -34,10 +34,17 @@ void add_dof_compose_pass(FrameBuilder& frame, const DofFrame& dof, const DofLay
   pass.read("reaching", sprites.reaching);
   lit.color = pass.write("lit_image", lit.color);
   read_dof_lists(pass, dof.tiles);
-  for (std::uint32_t kind = 0; kind < GLOAM_DOF_COMPOSE_KINDS; ++kind) {
+  const auto run = [&](std::uint32_t kind, std::uint32_t list, int level) {
     pass.use(program(kind));
-    dispatch_dof_list(pass, dof.tiles, GLOAM_DOF_COMPOSE + kind);
+    pass.push(shaders::DofLevel{level});
+    dispatch_dof_list(pass, dof.tiles, GLOAM_DOF_COMPOSE + list);
+  };
+  for (int k = 1; k <= dof.inputs.constants.last_level; ++k) {
+    const auto level = static_cast<std::uint32_t>(k);
+    run(GLOAM_DOF_COMPOSE_ONE + (k > 1 ? 1 : 0), GLOAM_DOF_COMPOSE_ONE + level, k);
+    if (k > 1 && k < dof.inputs.constants.last_level) run(GLOAM_DOF_COMPOSE_TWO, GLOAM_DOF_COMPOSE_TWO + level, k);
   }
+  for (std::uint32_t kind = GLOAM_DOF_COMPOSE_FAR; kind < GLOAM_DOF_COMPOSE_KINDS; ++kind) run(kind, kind, 0);
 }
 
 }  // namespace gloam

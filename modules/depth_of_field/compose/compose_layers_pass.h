@@ -7,7 +7,7 @@
 
 namespace gloam {
 
-/// kind: GLOAM_DOF_COMPOSE_COARSE and so on.
+/// kind: GLOAM_DOF_COMPOSE_ONE (+ 1 for levels after the first), GLOAM_DOF_COMPOSE_TWO and so on.
 [[nodiscard]] ComputeProgram dof_compose_program(Bokeh bokeh, std::uint32_t kind, bool full_resolution);
 
 /// Lays the gathered layers and the sprites over LitOutput, in place.

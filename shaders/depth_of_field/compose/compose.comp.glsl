@@ -12,15 +12,17 @@
 
 layout(local_size_x_id = 2) in;
 layout(constant_id = 2) const int kThreads = GLOAM_DOF_THREADS;
-layout(constant_id = 1) const uint kKind = GLOAM_DOF_COMPOSE_SPRITES;  // what is composed
+// What is composed. Of GLOAM_DOF_COMPOSE_ONE the first item is that of level 1, the second that of any other level.
+layout(constant_id = 1) const uint kKind = GLOAM_DOF_COMPOSE_SPRITES;
 layout(constant_id = 3) const uint kFull = 0u;                         // 1: level 0 is used
 const bool kSprites = kKind == GLOAM_DOF_COMPOSE_SPRITES;
 const bool kBoth = kSprites || kKind == GLOAM_DOF_COMPOSE_BOTH;
-const bool kFarFine = kBoth || kKind == GLOAM_DOF_COMPOSE_FAR;
-const bool kFarCoarse = kFarFine || kKind == GLOAM_DOF_COMPOSE_COARSE;
+const bool kFar = kBoth || kKind == GLOAM_DOF_COMPOSE_FAR;
+const bool kTwo = kKind == GLOAM_DOF_COMPOSE_TWO, kOne = kKind < GLOAM_DOF_COMPOSE_TWO;
 const bool kNearFine = kBoth || kKind == GLOAM_DOF_COMPOSE_NEAR;
 const bool kNearCoarse = kBoth;
 
+layout(push_constant, scalar) uniform Level { DofLevel pushed; };  // of one or two levels
 layout(set = 0, binding = 0, scalar) uniform Dof { DofConstants dof; };
 layout(set = 0, binding = 1) uniform sampler2D depth_image;
 layout(set = 0, binding = 2) uniform sampler2D far_image;
@@ -99,10 +101,14 @@ void add_far(inout Quad sum, Quad found, int level, vec4 circles) {
 
 Quad far_light(ivec2 pixel, vec4 circles) {
   Quad sum = no_quad();
-  if (kFarFine && kFull != 0u && (reach.far & 1u) != 0u) add_far(sum, quad_of_pixels(far_image, pixel), 0, circles);
-  if (kFarFine && (reach.far & 2u) != 0u) add_far(sum, quad_of_level_1(far_image, pixel), 1, circles);
+  if (kKind == GLOAM_DOF_COMPOSE_ONE) add_far(sum, quad_of_level_1(far_image, pixel), 1, circles);
+  if (kKind == GLOAM_DOF_COMPOSE_ONE + 1 || kTwo)
+    add_far(sum, quad_of_level(far_image, pixel, pushed.level), pushed.level, circles);
+  if (kTwo) add_far(sum, quad_of_level(far_image, pixel, pushed.level + 1), pushed.level + 1, circles);
+  if (kFar && kFull != 0u && (reach.far & 1u) != 0u) add_far(sum, quad_of_pixels(far_image, pixel), 0, circles);
+  if (kFar && (reach.far & 2u) != 0u) add_far(sum, quad_of_level_1(far_image, pixel), 1, circles);
   uint left = reach.far & ~3u;
-  if (kFarCoarse && left != 0u) do {
+  if (kFar && left != 0u) do {
       add_far(sum, quad_of_level(far_image, pixel, findLSB(left)), findLSB(left), circles);
       left &= left - 1u;
     } while (left != 0u);  // tested at the end: a processor goes once more through a loop that tests first
@@ -183,7 +189,8 @@ void compose_quad(ivec2 pixel) {
 
 void main() {
   DofTile tile;
-  if (!listed_tile(uint(GLOAM_DOF_COMPOSE) + kKind, list_group(), tile)) return;
+  uint list = uint(GLOAM_DOF_COMPOSE) + (kOne ? uint(GLOAM_DOF_COMPOSE_ONE) : kKind);
+  if (!listed_tile(list + (kOne || kTwo ? uint(pushed.level) : 0u), list_group(), tile)) return;
   uint index = uint(tile.place.y) * dof.tiles.x + uint(tile.place.x);
   reach = reached[index];
   around = kSprites ? tile_sprites[index].surroundings : -1.0;

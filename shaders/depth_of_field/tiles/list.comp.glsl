@@ -33,7 +33,12 @@ void append(uint list, int tiles, DofEntry entry) {
 uint composed_kind(DofTileReach reach, bool sprites) {
   const uint fine = 3u;
   if (sprites) return uint(GLOAM_DOF_COMPOSE_SPRITES);
-  if (reach.near == 0u) return (reach.far & fine) == 0u ? uint(GLOAM_DOF_COMPOSE_COARSE) : uint(GLOAM_DOF_COMPOSE_FAR);
+  if (reach.near == 0u) {
+    int finest = findLSB(reach.far), count = bitCount(reach.far);
+    if (count == 1 && finest > 0) return uint(GLOAM_DOF_COMPOSE_ONE + finest);
+    bool two = count == 2 && finest > 1 && (reach.far >> finest & 2u) != 0u;
+    return two ? uint(GLOAM_DOF_COMPOSE_TWO + finest) : uint(GLOAM_DOF_COMPOSE_FAR);
+  }
   return reach.far == 0u && (reach.near & ~fine) == 0u ? uint(GLOAM_DOF_COMPOSE_NEAR) : uint(GLOAM_DOF_COMPOSE_BOTH);
 }
 
