@@ -37,8 +37,8 @@ void list_dof_pipelines(const DofKnobs& knobs, bool threads_in_turn, PipelineLis
     add(program);
   for (const std::uint32_t kind :
        {GLOAM_DOF_COMPOSE_ONE, GLOAM_DOF_COMPOSE_ONE + 1, GLOAM_DOF_COMPOSE_TWO, GLOAM_DOF_COMPOSE_FAR,
-        GLOAM_DOF_COMPOSE_NEAR, GLOAM_DOF_COMPOSE_BOTH})
-    add(dof_compose_program(Bokeh::round, kind, knobs.full_resolution));
+        GLOAM_DOF_COMPOSE_NEAR_FINE, GLOAM_DOF_COMPOSE_NEAR, GLOAM_DOF_COMPOSE_BOTH})
+    add(dof_compose_program(Bokeh::round, kind, knobs.full_resolution, threads_in_turn));
   for (const Bokeh bokeh : {Bokeh::round, Bokeh::hexagonal}) {
     add(dof_reach_program(bokeh));
     add(dof_list_program(bokeh));
@@ -47,7 +47,7 @@ void list_dof_pipelines(const DofKnobs& knobs, bool threads_in_turn, PipelineLis
       if (knobs.full_resolution) add(dof_prefilter_program(bokeh, second, true, threads_in_turn));
       add(dof_gather_program(knobs.cache, bokeh, second, threads_in_turn));
     }
-    add(dof_compose_program(bokeh, GLOAM_DOF_COMPOSE_SPRITES, knobs.full_resolution));
+    add(dof_compose_program(bokeh, GLOAM_DOF_COMPOSE_SPRITES, knobs.full_resolution, threads_in_turn));
   }
 }
 

@@ -111,7 +111,6 @@ class DepthOfFieldModule final : public Module {
     sink.count("dof.tiles_near", lists.list[GLOAM_DOF_NEAR_TILES].count);
     sink.count("dof.tiles_coarser", lists.list[GLOAM_DOF_COARSER].count);
     sink.count("dof.sprites", lists.list[GLOAM_DOF_SPRITES].count);
-    for (int i = 0; i < GLOAM_DOF_LISTS; ++i) sink.count("dof.list" + std::to_string(i), lists.list[i].count);
     sink.count("dof.sprite_overflow", lists.list[GLOAM_DOF_OVERFLOW].count);
   }
   void release() override { staging_.release(); }

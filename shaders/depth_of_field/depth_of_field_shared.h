@@ -46,16 +46,17 @@
 #define GLOAM_DOF_COMPOSE_ONE 0      // + level: one level of the far layer, not 0
 #define GLOAM_DOF_COMPOSE_TWO 5      // + level: two coarse levels of the far layer, this and the next
 #define GLOAM_DOF_COMPOSE_FAR 10     // any levels of the far layer
-#define GLOAM_DOF_COMPOSE_NEAR 11    // fine levels of the near layer
-#define GLOAM_DOF_COMPOSE_BOTH 12    // any levels of both
-#define GLOAM_DOF_COMPOSE_SPRITES 13 // these and sprites
-#define GLOAM_DOF_COMPOSE_KINDS 14
+#define GLOAM_DOF_COMPOSE_NEAR_FINE 11  // fine levels of the near layer
+#define GLOAM_DOF_COMPOSE_NEAR 12    // any levels of the near layer
+#define GLOAM_DOF_COMPOSE_BOTH 13    // any levels of both
+#define GLOAM_DOF_COMPOSE_SPRITES 14 // these and sprites
+#define GLOAM_DOF_COMPOSE_KINDS 15
 // These only count.
-#define GLOAM_DOF_NEAR_TILES 34  // tiles that the near layer reaches
-#define GLOAM_DOF_COARSER 35     // tiles with circles greater than dof.radius
-#define GLOAM_DOF_SPRITES 36     // sprites
-#define GLOAM_DOF_OVERFLOW 37  // tiles with more bright pixels than sprites, and tiles that more sprites reach than fit
-#define GLOAM_DOF_LISTS 38
+#define GLOAM_DOF_NEAR_TILES 35  // tiles that the near layer reaches
+#define GLOAM_DOF_COARSER 36     // tiles with circles greater than dof.radius
+#define GLOAM_DOF_SPRITES 37     // sprites
+#define GLOAM_DOF_OVERFLOW 38  // tiles with more bright pixels than sprites, and tiles that more sprites reach than fit
+#define GLOAM_DOF_LISTS 39
 
 GLOAM_SHARED_BEGIN
 

@@ -8,19 +8,20 @@
 
 namespace gloam {
 
-ComputeProgram dof_compose_program(Bokeh bokeh, std::uint32_t kind, bool full_resolution) {
+ComputeProgram dof_compose_program(Bokeh bokeh, std::uint32_t kind, bool full_resolution, bool threads_in_turn) {
   return {shaders::depth_of_field::compose_comp,
           {// Only sprites have the shape of the aperture.
            {"kHexagonal", kind == GLOAM_DOF_COMPOSE_SPRITES ? dof_hexagonal(bokeh) : 0u},
            {"kKind", kind},
-           {"kThreads", GLOAM_DOF_THREADS},
+           {"kThreads", dof_threads(threads_in_turn)},
            {"kFull", full_resolution ? 1u : 0u}}};
 }
 
 void add_dof_compose_pass(FrameBuilder& frame, const DofFrame& dof, const DofLayers& gathered,
                           const DofSprites& sprites) {
   const auto program = [&](std::uint32_t kind) {
-    return dof_compose_program(dof.inputs.bokeh, kind, dof.inputs.knobs.full_resolution);
+    return dof_compose_program(dof.inputs.bokeh, kind, dof.inputs.knobs.full_resolution,
+                               dof.inputs.threads_in_turn);
   };
   ComputePass pass(frame, "dof_compose", program(GLOAM_DOF_COMPOSE_FAR));
   LitOutput& lit = frame.get<LitOutput>();

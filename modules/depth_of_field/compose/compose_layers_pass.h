@@ -8,7 +8,8 @@
 namespace gloam {
 
 /// kind: GLOAM_DOF_COMPOSE_ONE (+ 1 for levels after the first), GLOAM_DOF_COMPOSE_TWO and so on.
-[[nodiscard]] ComputeProgram dof_compose_program(Bokeh bokeh, std::uint32_t kind, bool full_resolution);
+[[nodiscard]] ComputeProgram dof_compose_program(Bokeh bokeh, std::uint32_t kind, bool full_resolution,
+                                                 bool threads_in_turn);
 
 /// Lays the gathered layers and the sprites over LitOutput, in place.
 void add_dof_compose_pass(FrameBuilder& frame, const DofFrame& dof, const DofLayers& gathered,

@@ -19,8 +19,9 @@ const bool kSprites = kKind == GLOAM_DOF_COMPOSE_SPRITES;
 const bool kBoth = kSprites || kKind == GLOAM_DOF_COMPOSE_BOTH;
 const bool kFar = kBoth || kKind == GLOAM_DOF_COMPOSE_FAR;
 const bool kTwo = kKind == GLOAM_DOF_COMPOSE_TWO, kOne = kKind < GLOAM_DOF_COMPOSE_TWO;
-const bool kNearFine = kBoth || kKind == GLOAM_DOF_COMPOSE_NEAR;
-const bool kNearCoarse = kBoth;
+const bool kNearCoarse = kBoth || kKind == GLOAM_DOF_COMPOSE_NEAR;
+const bool kNearFine = kNearCoarse || kKind == GLOAM_DOF_COMPOSE_NEAR_FINE;
+const bool kFarLevel1 = kFar || kKind == GLOAM_DOF_COMPOSE_ONE;
 
 layout(push_constant, scalar) uniform Level { DofLevel pushed; };  // of one or two levels
 layout(set = 0, binding = 0, scalar) uniform Dof { DofConstants dof; };
@@ -52,17 +53,20 @@ vec4 texel_of(sampler2D image, ivec2 texel, ivec2 size, int level) {
   return texelFetch(image, dof.corner[level] + inside_level(texel, size), 0);
 }
 
-// The texels of level 1 around the four pixels that one of them covers, interpolated at the pixels.
-Quad quad_of_level_1(sampler2D image, ivec2 pixel) {
-  ivec2 texel = pixel >> 1, size = level_size(1);
-  vec4 left[3], right[3];
-  for (int y = 0; y < 3; ++y) {
-    vec4 middle = texel_of(image, texel + ivec2(0, y - 1), size, 1);
-    left[y] = mix(middle, texel_of(image, texel + ivec2(-1, y - 1), size, 1), 0.25);
-    right[y] = mix(middle, texel_of(image, texel + ivec2(1, y - 1), size, 1), 0.25);
-  }
-  return Quad(mix(left[1], left[0], 0.25), mix(right[1], right[0], 0.25), mix(left[1], left[2], 0.25),
-              mix(right[1], right[2], 0.25));
+// A row of texels of level 1, interpolated at the columns of the two pixels that one of them covers.
+struct Row {
+  vec4 left, right;
+};
+Row row_of_level_1(sampler2D image, ivec2 texel) {
+  ivec2 size = level_size(1);
+  vec4 middle = texel_of(image, texel, size, 1);
+  return Row(mix(middle, texel_of(image, texel + ivec2(-1, 0), size, 1), 0.25),
+             mix(middle, texel_of(image, texel + ivec2(1, 0), size, 1), 0.25));
+}
+// The four pixels that a texel covers: the rows of texels above it, of it and below it, interpolated.
+Quad quad_of_rows(Row above, Row own, Row below) {
+  return Quad(mix(own.left, above.left, 0.25), mix(own.right, above.right, 0.25), mix(own.left, below.left, 0.25),
+              mix(own.right, below.right, 0.25));
 }
 
 // At coarser levels the same four texels lie around all four pixels.
@@ -99,14 +103,15 @@ void add_far(inout Quad sum, Quad found, int level, vec4 circles) {
   add_far(sum.p3, found.p3, range, whole, circles.w);
 }
 
-Quad far_light(ivec2 pixel, vec4 circles) {
+// level_1: the quad at level 1.
+Quad far_light(ivec2 pixel, vec4 circles, Quad level_1) {
   Quad sum = no_quad();
-  if (kKind == GLOAM_DOF_COMPOSE_ONE) add_far(sum, quad_of_level_1(far_image, pixel), 1, circles);
+  if (kKind == GLOAM_DOF_COMPOSE_ONE) add_far(sum, level_1, 1, circles);
   if (kKind == GLOAM_DOF_COMPOSE_ONE + 1 || kTwo)
     add_far(sum, quad_of_level(far_image, pixel, pushed.level), pushed.level, circles);
   if (kTwo) add_far(sum, quad_of_level(far_image, pixel, pushed.level + 1), pushed.level + 1, circles);
   if (kFar && kFull != 0u && (reach.far & 1u) != 0u) add_far(sum, quad_of_pixels(far_image, pixel), 0, circles);
-  if (kFar && (reach.far & 2u) != 0u) add_far(sum, quad_of_level_1(far_image, pixel), 1, circles);
+  if (kFar && (reach.far & 2u) != 0u) add_far(sum, level_1, 1, circles);
   uint left = reach.far & ~3u;
   if (kFar && left != 0u) do {
       add_far(sum, quad_of_level(far_image, pixel, findLSB(left)), findLSB(left), circles);
@@ -121,10 +126,10 @@ void add_near(inout Quad sum, Quad found) {
   sum.p2 += found.p2;
   sum.p3 += found.p3;
 }
-Quad near_light(ivec2 pixel) {
+Quad near_light(ivec2 pixel, Quad level_1) {
   Quad sum = no_quad();
   if (kNearFine && kFull != 0u && (reach.near & 1u) != 0u) add_near(sum, quad_of_pixels(near_image, pixel));
-  if (kNearFine && (reach.near & 2u) != 0u) add_near(sum, quad_of_level_1(near_image, pixel));
+  if (kNearFine && (reach.near & 2u) != 0u) add_near(sum, level_1);
   uint left = reach.near & ~3u;
   if (kNearCoarse && left != 0u) do {
       add_near(sum, quad_of_level(near_image, pixel, findLSB(left)));
@@ -174,11 +179,11 @@ void compose(ivec2 pixel, float coc, vec4 far, vec4 near, vec3 discs, vec3 near_
     imageStore(lit_image, pixel, vec4(min(composed, vec3(65504.0)), light.a));
 }
 
-void compose_quad(ivec2 pixel) {
+void compose_quad(ivec2 pixel, Quad far_1, Quad near_1) {
   // Upper left, upper right, lower left, lower right.
   vec4 depths = textureGather(depth_image, vec2(pixel + 1) * dof.inverse_size).wzxy;
   vec4 coc = clamp(dof.coc_offset + dof.coc_slope * depths, -dof.radius, dof.radius);
-  Quad far = far_light(pixel, abs(coc)), near = near_light(pixel);
+  Quad far = far_light(pixel, abs(coc), far_1), near = near_light(pixel, near_1);
   Quad discs = no_quad(), near_discs = no_quad();
   add_sprites(pixel, coc, discs, near_discs);
   compose(pixel, coc.x, far.p0, near.p0, discs.p0.rgb, near_discs.p0.rgb);
@@ -196,6 +201,33 @@ void main() {
   around = kSprites ? tile_sprites[index].surroundings : -1.0;
   first_sprite = index * uint(GLOAM_DOF_REACHING_SPRITES + 1) + 1u;
   sprite_count = kSprites ? reaching[first_sprite - 1u] : 0u;
-  int quad = int(gl_LocalInvocationIndex);
-  compose_quad(tile.place * GLOAM_DOF_TILE + 2 * ivec2(quad & 7, quad >> 3));
+  // A thread composes quads one below another: each reads one further row of texels of level 1.
+  int number = int(gl_LocalInvocationIndex), rows = 64 / kThreads, i = 0;
+  ivec2 texel = tile.place * (GLOAM_DOF_TILE / 2) + ivec2(number & 7, (number >> 3) * rows);
+  Row far_above, far_own, near_above, near_own;
+  if (kFarLevel1) {
+    far_above = row_of_level_1(far_image, texel - ivec2(0, 1));
+    far_own = row_of_level_1(far_image, texel);
+  }
+  if (kNearFine) {
+    near_above = row_of_level_1(near_image, texel - ivec2(0, 1));
+    near_own = row_of_level_1(near_image, texel);
+  }
+  do {
+    Quad far = no_quad(), near = no_quad();
+    if (kFarLevel1) {
+      Row below = row_of_level_1(far_image, texel + ivec2(0, 1));
+      far = quad_of_rows(far_above, far_own, below);
+      far_above = far_own;
+      far_own = below;
+    }
+    if (kNearFine) {
+      Row below = row_of_level_1(near_image, texel + ivec2(0, 1));
+      near = quad_of_rows(near_above, near_own, below);
+      near_above = near_own;
+      near_own = below;
+    }
+    compose_quad(2 * texel, far, near);
+    ++texel.y;
+  } while (++i < rows);
 }

@@ -39,7 +39,8 @@ uint composed_kind(DofTileReach reach, bool sprites) {
     bool two = count == 2 && finest > 1 && (reach.far >> finest & 2u) != 0u;
     return two ? uint(GLOAM_DOF_COMPOSE_TWO + finest) : uint(GLOAM_DOF_COMPOSE_FAR);
   }
-  return reach.far == 0u && (reach.near & ~fine) == 0u ? uint(GLOAM_DOF_COMPOSE_NEAR) : uint(GLOAM_DOF_COMPOSE_BOTH);
+  if (reach.far != 0u) return uint(GLOAM_DOF_COMPOSE_BOTH);
+  return (reach.near & ~fine) == 0u ? uint(GLOAM_DOF_COMPOSE_NEAR_FINE) : uint(GLOAM_DOF_COMPOSE_NEAR);
 }
 
 void main() {
