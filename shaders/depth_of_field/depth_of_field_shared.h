@@ -37,7 +37,7 @@
 #define GLOAM_DOF_REACHING_SPRITES 144
 
 /// Lists of tiles, by the pass that runs in them. Of the first ones there is one for each level: list + level.
-#define GLOAM_DOF_PREFILTER 0        // tiles without sprites and without pixels that the level blurs before the focus
+#define GLOAM_DOF_PREFILTER 0        // tiles without sprites and without pixels before the focus
 #define GLOAM_DOF_PREFILTER_MORE 5   // other tiles
 #define GLOAM_DOF_FAR 10             // gathers of the far layer
 #define GLOAM_DOF_NEAR 15            // gathers of the near layer
@@ -107,7 +107,7 @@ struct DofTileBounds {
   uint far;           // levels of pixels behind the focus
   uint near;          // levels of pixels before the focus
   uint fill;          // levels at which the far layer is filled in behind them
-  uint open;          // 1: some pixels are not before the focus
+  float least_near;   // least radius before the focus; 0: some pixels are not before the focus
   float far_radius;   // greatest radius behind the focus, pixels; 0: none
   float near_radius;  // greatest radius before the focus, pixels; 0: none
 };

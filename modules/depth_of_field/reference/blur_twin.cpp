@@ -101,8 +101,7 @@ class DofTwin {
   /// Levels of the pixels of a tile, before and behind the focus, and of those that are composed in it.
   struct Tile {
     unsigned far = 0, near = 0, fill = 0;
-    bool open = false;
-    double near_radius = 0.0;
+    double near_radius = 0.0, least_near = 1e9;
     unsigned composed_far = 0, composed_near = 0;
   };
   [[nodiscard]] double lowest(int k) const { return k == c_.first_level ? kTwinFocus : double{c_.from[k - 1]}; }
@@ -122,7 +121,7 @@ class DofTwin {
                                circle > -kNearFiner * greatest(k);
           tile.near |= is_near ? 1u << k : 0u;
         }
-        tile.open = tile.open || circle > -kTwinFocus;
+        tile.least_near = std::min(tile.least_near, circle > -kTwinFocus ? 0.0 : -circle);
         if (circle <= -kTwinFocus) tile.near_radius = std::max(tile.near_radius, -circle);
       }
     for (int y = 0; y < down_; ++y)
@@ -140,7 +139,7 @@ class DofTwin {
           const double between = k == 0 ? 1.0 : 1.5 * (1 << k),
                        radius = std::min(other.near_radius, kNearFiner * greatest(k));
           if (radius + between > kTwinTile * std::max(apart - 1, 0)) own.composed_near |= other.near & bit;
-          if (other.open && kTwinTile * (apart - 1) <= c_.taps[k] << k) own.composed_far |= own.fill & bit;
+          if (other.least_near < 0.51 * own.near_radius && kTwinTile * (apart - 1) <= c_.taps[k] << k) own.composed_far |= own.fill & bit;
         }
       }
   }
@@ -222,13 +221,14 @@ class DofTwin {
     dvec3 far(0.0), focused(0.0);
     dvec4 near(0.0);
     double far_weight = 0.0, far_circle = 0.0, far_bright = 0.0, focus_weight = 0.0, circles = 0.0;
-    bool before = false;
+    double before = 0.0;
+    dvec4 before_focus(0.0);
     const double least = k == c_.first_level ? kTwinFocus : std::max(0.5 * c_.from[k - 1], kTwinFocus);
     for (int y = row * scale; y < (row + 1) * scale; ++y)
       for (int x = column * scale; x < (column + 1) * scale; ++x) {
         const int px = std::min(x, width_ - 1), py = std::min(y, height_ - 1);
         const double circle = coc(px, py);
-        before = before || circle <= -kTwinFocus;
+        before = std::max(before, -circle);
         if (!all_finite(lit(px, py))) continue;
         const dvec3 light = lit(px, py) * (1.0 - sprite_share(px, py));
         if (circle >= least) {
@@ -241,12 +241,14 @@ class DofTwin {
           focused += light;
           focus_weight += 1.0;
         } else {
+          before_focus += dvec4(light, 1.0);
           near += share(k, -circle / kNearFiner) * dvec4(light, 1.0);
           circles += share(k, -circle / kNearFiner) * -circle;
         }
       }
     dvec4 texel(0.0, 0.0, 0.0, kNoLight);
-    if (focus_weight > 0.0) texel = dvec4(focused / focus_weight, before ? kBesideNear : 0.0);
+    if (before_focus.w > 0.0) texel = dvec4(dvec3(before_focus) / before_focus.w, kNoLight - before);
+    if (focus_weight > 0.0) texel = dvec4(focused / focus_weight, before >= kTwinFocus ? kBesideNear : 0.0);
     if (far_weight > 0.0)
       texel = dvec4(far / far_weight, std::floor(kernel(far_circle / far_bright, k) * 16.0 + 0.5) / 16.0);
     level.far.push_back(rounded(texel));
@@ -277,7 +279,8 @@ class DofTwin {
         const dvec4 counted(dvec3(other), 1.0);
         if (other.w > 0.0 && own.w > 0.0)
           (other.w < own.w ? front : back) += spread(distance(dx, dy), std::min(other.w, own.w)) * counted;
-        if (other.w > kNoLight && dx * dx + dy * dy <= texels)
+        const bool behind = other.w > kNoLight || other.w - kNoLight > 0.5 * (own.w - kNoLight);
+        if (behind && dx * dx + dy * dy <= texels)
           fill += counted / std::pow(dx * dx + dy * dy + 0.25, 2);
       }
     if (own.w > 0.0) {
@@ -290,23 +293,28 @@ class DofTwin {
   [[nodiscard]] int fill_texels(double radius, int k) const { return dof_texels(in_.bokeh, kernel(radius, k)); }
   [[nodiscard]] dvec4 gather_near(int k, int x, int y) const {
     const Level& level = levels_[k];
-    dvec4 sum(0.0);
+    dvec4 front(0.0), back(0.0);
     double radii = 0.0;
+    const double own = level.near[level.at(x, y)].w > 0.0 ? level.near_radius[level.at(x, y)] : 0.0;
     for (int dy = -c_.taps[k]; dy <= c_.taps[k]; ++dy)
       for (int dx = -c_.taps[k]; dx <= c_.taps[k]; ++dx) {
         const std::size_t other = level.at(x + dx, y + dy);
         const dvec4 counted = spread(distance(dx, dy), level.near_radius[other]) * level.near[other];
-        sum += counted;
+        (level.near_radius[other] > 1.5 * own ? front : back) += counted;
         radii += counted.w * level.near_radius[other];
       }
-    if (sum.w <= 0.0) return sum;
+    if (front.w + back.w <= 0.0) return back;
     // Below a radius of 2.4 the weights of a whole kernel are made to sum to 1.
-    const double radius = radii / sum.w;
+    const double radius = radii / (front.w + back.w);
     double whole = 0.0;
     for (int dy = -3; dy <= 3; ++dy)
       for (int dx = -3; dx <= 3; ++dx) whole += spread(distance(dx, dy), radius);
-    if (radius < 2.4) sum /= whole;
-    return sum / std::max(sum.w, 1.0);
+    if (radius < 2.4) front /= whole, back /= whole;
+    return under(under(dvec4(0.0), front), back);
+  }
+  /// Light multiplied by its coverage, and that of what lies behind it.
+  [[nodiscard]] static dvec4 under(const dvec4& front, const dvec4& behind) {
+    return front + behind * std::clamp((1.0 - front.w) / std::max(behind.w, 1e-9), 0.0, 1.0);
   }
 
   /// A gathered layer at a pixel, interpolated.
@@ -335,14 +343,14 @@ class DofTwin {
     dvec4 far(0.0), near(0.0);
     for (int k = c_.first_level; k <= c_.last_level; ++k) {
       const Level& level = levels_[k];
-      near += at_pixel(&Tile::composed_near, level.blurred_near, k, x, y);
       const double scale = 1 << k;
       double part = k == 0 ? 1.0 : std::clamp((circle * circle - 0.25) / (scale * scale - 0.25), 0.0, 1.0);
       part *= circle >= kTwinFocus ? share(k, circle) : 0.0;
       const dvec4 found = at_pixel(&Tile::composed_far, level.blurred_far, k, x, y);
       if (found.w > 0.0) far += part * found / found.w;
     }
-    near /= std::max(near.w, 1.0);
+    for (int k = c_.last_level; k >= c_.first_level; --k)
+      near = under(near, at_pixel(&Tile::composed_near, levels_[k].blurred_near, k, x, y));
     if (!counts && far.w > 0.0) far /= far.w;
     const dvec3 sharp = counts ? lit(x, y) * (1.0 - sprite_share(x, y)) : dvec3(0.0);
     dvec3 behind = dvec3(far) + (1.0 - far.w) * sharp, before(0.0);

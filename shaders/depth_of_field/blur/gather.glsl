@@ -5,6 +5,7 @@
 
 #include "shaders/depth_of_field/depth_of_field_shared.h"
 #include "shaders/depth_of_field/kernel_api.glsl"
+#include "shaders/depth_of_field/near_api.glsl"
 
 // Gathers one layer at the texels of one level of a tile. A texel counts where its own circle reaches, by one over the
 // circle's area: the light that it would scatter. Include this after keep() and kept(), which store texels of the layer
@@ -87,10 +88,10 @@ Block blurred_far(ivec2 texel, vec4 own, int texels) {
 }
 
 // Behind objects before the focus: the light that is visible near them, the nearest most.
-void add_fill(vec4 other, ivec2 apart, int texels, inout vec4 fill) {
+void add_fill(vec4 other, float own, ivec2 apart, int texels, inout vec4 fill) {
   int squared = apart.x * apart.x + apart.y * apart.y;
   float weight = 1.0 / (float(squared) + 0.25);
-  fill += (other.a > kNothing && squared <= texels ? weight * weight : 0.0) * vec4(other.rgb, 1.0);
+  fill += (lies_behind(own, other.a) && squared <= texels ? weight * weight : 0.0) * vec4(other.rgb, 1.0);
 }
 vec4 filled(float own, vec4 fill, vec4 light) {
   if (own >= 0.0) return light;
@@ -105,10 +106,10 @@ Block filled_far(ivec2 texel, vec4 own, int texels, int own_texels, Block light)
     do {
       vec4 other = written_at(texel + ivec2(x, y));
       ivec2 apart = ivec2(x, y);
-      add_fill(other, apart, own_texels, fill.t0);
-      add_fill(other, apart - ivec2(1, 0), own_texels, fill.t1);
-      add_fill(other, apart - ivec2(0, 1), own_texels, fill.t2);
-      add_fill(other, apart - ivec2(1, 1), own_texels, fill.t3);
+      add_fill(other, own.x, apart, own_texels, fill.t0);
+      add_fill(other, own.y, apart - ivec2(1, 0), own_texels, fill.t1);
+      add_fill(other, own.z, apart - ivec2(0, 1), own_texels, fill.t2);
+      add_fill(other, own.w, apart - ivec2(1, 1), own_texels, fill.t3);
     } while (++x <= end + 1);
   } while (++y <= taps + 1);
   return Block(filled(own.x, fill.t0, light.t0), filled(own.y, fill.t1, light.t1), filled(own.z, fill.t2, light.t2),
@@ -148,19 +149,24 @@ struct NearTexel {
   vec4 light;
   float radius;
 };
-void add_near(NearTexel other, vec2 apart, inout vec4 sum, inout float radii) {
+// own: radius of the texel's own kernel. Texels with much wider ones lie before it (front).
+void add_near(NearTexel other, float own, vec2 apart, inout vec4 front, inout vec4 back, inout float radii) {
   float cover = aperture_cover(aperture_distance(apart), other.radius);
-  sum += cover * other.light;
+  bool before = other.radius > 1.5 * own;
+  front += (before ? cover : 0.0) * other.light;
+  back += (before ? 0.0 : cover) * other.light;
   radii += cover * other.light.a * other.radius;
 }
-vec4 covering(vec4 sum, float radii) {
+vec4 covering(vec4 front, vec4 back, float radii) {
   // Few texels do not add up to the area of a disc.
-  float radius = max(radii / max(sum.a, 1e-9), 0.5);
-  sum *= aperture_area(radius) / aperture_sum(radius);
-  return sum / max(sum.a, 1.0);
+  float radius = max(radii / max(front.a + back.a, 1e-9), 0.5), whole = aperture_area(radius) / aperture_sum(radius);
+  return under(under(vec4(0.0), front * whole), back * whole);
 }
+float own_radius(vec4 texel) { return near_share(texel.a) > 0.0 ? near_radius(texel.a) : 0.0; }
 Block near_texels(ivec2 texel, int texels) {
-  Block sum = Block(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
+  Block front = Block(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0)), back = front;
+  vec4 own = vec4(own_radius(layer_at(texel)), own_radius(layer_at(texel + ivec2(1, 0))),
+                  own_radius(layer_at(texel + ivec2(0, 1))), own_radius(layer_at(texel + ivec2(1, 1))));
   vec4 radii = vec4(0.0);
   int taps = int(sqrt(float(texels))), y = -taps;
   do {
@@ -171,14 +177,14 @@ Block near_texels(ivec2 texel, int texels) {
       float weight = share > 0.0 ? 1.0 / aperture_area(radius) : 0.0;
       NearTexel other = NearTexel(weight * vec4(found.rgb, share), radius);
       vec2 apart = vec2(x, y);
-      add_near(other, apart, sum.t0, radii.x);
-      add_near(other, apart - vec2(1.0, 0.0), sum.t1, radii.y);
-      add_near(other, apart - vec2(0.0, 1.0), sum.t2, radii.z);
-      add_near(other, apart - vec2(1.0, 1.0), sum.t3, radii.w);
+      add_near(other, own.x, apart, front.t0, back.t0, radii.x);
+      add_near(other, own.y, apart - vec2(1.0, 0.0), front.t1, back.t1, radii.y);
+      add_near(other, own.z, apart - vec2(0.0, 1.0), front.t2, back.t2, radii.z);
+      add_near(other, own.w, apart - vec2(1.0, 1.0), front.t3, back.t3, radii.w);
     } while (++x <= end + 1);
   } while (++y <= taps + 1);
-  return Block(covering(sum.t0, radii.x), covering(sum.t1, radii.y), covering(sum.t2, radii.z),
-               covering(sum.t3, radii.w));
+  return Block(covering(front.t0, back.t0, radii.x), covering(front.t1, back.t1, radii.y),
+               covering(front.t2, back.t2, radii.z), covering(front.t3, back.t3, radii.w));
 }
 
 ivec2 tile_end;  // texel beyond the tile and the level

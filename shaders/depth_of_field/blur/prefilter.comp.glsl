@@ -9,7 +9,7 @@
 //
 // Far: light of the pixels behind the focus, and in alpha the radius of their kernel. If
 // there are none, the light of the pixels in focus and alpha 0, or kBeside if other pixels of the texel are before the
-// focus; if there are none of these either, kNothing. Near: light of the pixels before the focus that this level blurs,
+// focus; if there are none of these either, that of the pixels before the focus, or kNothing. Near: light of the pixels before the focus that this level blurs,
 // multiplied by their share in the texel, and in alpha the share and the radius of their kernel (packed_near()). Light
 // that is not finite counts as absent, and sprites take theirs.
 
@@ -40,13 +40,13 @@ float
     least;  // circles behind the focus that are much smaller than a texel count as in focus: they would spread too far
 bool has_near;
 vec3 far_light, focus_light;
-float far_weight, far_circle, far_bright, focus_weight, near_weight, near_circle;
-vec4 near;
+float far_weight, far_circle, far_bright, focus_weight, near_circle, before_circle;
+vec4 near, before_focus;  // that this level blurs, and all
 
 void clear() {
   far_light = focus_light = vec3(0.0);
-  near = vec4(0.0);
-  far_weight = far_circle = far_bright = focus_weight = near_weight = near_circle = 0.0;
+  near = before_focus = vec4(0.0);
+  far_weight = far_circle = far_bright = focus_weight = near_circle = before_circle = 0.0;
 }
 
 void add(ivec2 pixel, float depth) {
@@ -66,14 +66,14 @@ void add(ivec2 pixel, float depth) {
   float focused = coc > -kInFocus && coc < least ? counts : 0.0;
   focus_light += focused * light;
   focus_weight += focused;
-  if (kMore != 0u && has_near) {
-    float before = coc <= -kInFocus ? 1.0 : 0.0,
-          part = counts * before * level_share(range, circle / GLOAM_DOF_NEAR_FINER);
+  if (kMore != 0u) {
+    float before = coc <= -kInFocus ? counts : 0.0;
+    before_focus += before * vec4(light, 1.0);
+    before_circle = max(before_circle, -coc);
+    float part = has_near ? before * level_share(range, circle / GLOAM_DOF_NEAR_FINER) : 0.0;
     near += part * vec4(light, 1.0);
     near_circle += part * circle;
   }
-  // Also where this level blurs none of them.
-  near_weight = coc <= -kInFocus ? 1.0 : near_weight;
 }
 
 void store(ivec2 texel, float pixels, int wanted) {
@@ -82,7 +82,8 @@ void store(ivec2 texel, float pixels, int wanted) {
   ivec2 at = dof.corner[level] + texel;
   float greatest = level == dof.last_level ? dof.radius : dof.to[level];
   vec4 far = vec4(0.0, 0.0, 0.0, kNothing);
-  if (focus_weight > 0.0) far = vec4(focus_light / focus_weight, near_weight > 0.0 ? kBeside : 0.0);
+  if (before_focus.a > 0.0) far = vec4(before_focus.rgb / before_focus.a, kNothing - before_circle);
+  if (focus_weight > 0.0) far = vec4(focus_light / focus_weight, before_circle >= kInFocus ? kBeside : 0.0);
   if (far_weight > 0.0)
     far = vec4(far_light / far_weight, rounded_radius(kernel_radius(min(far_circle / far_bright, greatest), level)));
   if ((wanted & GLOAM_DOF_WANTS_FAR) != 0) imageStore(far_image, at, min(far, vec4(65504.0)));

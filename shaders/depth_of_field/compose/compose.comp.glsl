@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/depth_of_field/depth_of_field_shared.h"
 #include "shaders/depth_of_field/kernel_api.glsl"
+#include "shaders/depth_of_field/near_api.glsl"
 
 // Lays the blurred layers over the light, in place, in the listed tiles. A pixel behind the focus shows the levels of
 // the far layer that its circle lies in. The near layer covers the pixels that it has spread to by its alpha. What is
@@ -120,21 +121,23 @@ Quad far_light(ivec2 pixel, vec4 circles, Quad level_1) {
   return sum;
 }
 
+// Coarser levels have wider circles, so they lie before finer ones.
 void add_near(inout Quad sum, Quad found) {
-  sum.p0 += found.p0;
-  sum.p1 += found.p1;
-  sum.p2 += found.p2;
-  sum.p3 += found.p3;
+  sum.p0 = under(sum.p0, found.p0);
+  sum.p1 = under(sum.p1, found.p1);
+  sum.p2 = under(sum.p2, found.p2);
+  sum.p3 = under(sum.p3, found.p3);
 }
 Quad near_light(ivec2 pixel, Quad level_1) {
   Quad sum = no_quad();
-  if (kNearFine && kFull != 0u && (reach.near & 1u) != 0u) add_near(sum, quad_of_pixels(near_image, pixel));
-  if (kNearFine && (reach.near & 2u) != 0u) add_near(sum, level_1);
   uint left = reach.near & ~3u;
   if (kNearCoarse && left != 0u) do {
-      add_near(sum, quad_of_level(near_image, pixel, findLSB(left)));
-      left &= left - 1u;
+      int level = findMSB(left);
+      add_near(sum, quad_of_level(near_image, pixel, level));
+      left &= ~(1u << level);
     } while (left != 0u);
+  if (kNearFine && (reach.near & 2u) != 0u) add_near(sum, level_1);
+  if (kNearFine && kFull != 0u && (reach.near & 1u) != 0u) add_near(sum, quad_of_pixels(near_image, pixel));
   return sum;
 }
 

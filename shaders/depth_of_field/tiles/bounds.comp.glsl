@@ -21,8 +21,8 @@ void main() {
   uvec2 tile = gl_GlobalInvocationID.xy;
   if (any(greaterThanEqual(tile, dof.tiles))) return;
   vec2 corner = vec2(tile * uint(GLOAM_DOF_TILE) + 1u);
-  uint far = 0u, near = 0u, fill = 0u, open = 0u;
-  float far_radius = 0.0, near_radius = 0.0;
+  uint far = 0u, near = 0u, fill = 0u;
+  float far_radius = 0.0, near_radius = 0.0, least_near = 1e9;
   // Level k has circles from low to high.
   float low[GLOAM_DOF_LEVELS], high[GLOAM_DOF_LEVELS];
   for (int k = 0; k < GLOAM_DOF_LEVELS; ++k) {
@@ -37,7 +37,7 @@ void main() {
       float least = min(least2.x, least2.y), most = max(most2.x, most2.y);
       far_radius = max(far_radius, most);
       near_radius = max(near_radius, -least);
-      open = most > -kInFocus ? 1u : open;
+      least_near = min(least_near, -most);
       for (int k = 0; k < GLOAM_DOF_LEVELS; ++k) {
         bool behind = has_any(bvec4(uvec4(greaterThanEqual(coc, vec4(low[k]))) & uvec4(lessThan(coc, vec4(high[k])))));
         float near_low = k == dof.first_level ? low[k] : GLOAM_DOF_NEAR_FINER * low[k];
@@ -53,8 +53,9 @@ void main() {
   uint levels = (2u << dof.last_level) - (1u << dof.first_level);
   far_radius = far_radius < kInFocus ? 0.0 : far_radius;
   near_radius = near_radius < kInFocus ? 0.0 : near_radius;
+  least_near = least_near < kInFocus ? 0.0 : least_near;
   bounds[tile.y * dof.tiles.x + tile.x] =
-      DofTileBounds(far & levels, near & levels, fill & levels, open, far_radius, near_radius);
+      DofTileBounds(far & levels, near & levels, fill & levels, least_near, far_radius, near_radius);
   if (((far | fill) & levels) != 0u) atomicOr(picture.far_levels, (far | fill) & levels);
   if ((near & levels) != 0u) atomicOr(picture.near_levels, near & levels);
   if (near_radius > 0.0) atomicMax(picture.near_radius, floatBitsToUint(near_radius));

@@ -72,7 +72,7 @@ void main() {
     uint wanted = ((far_layer & bit) != 0u ? uint(GLOAM_DOF_WANTS_FAR) : 0u) |
                   ((near_layer & bit) != 0u ? uint(GLOAM_DOF_WANTS_NEAR) : 0u) |
                   ((near_layer & own.near & bit) != 0u ? uint(GLOAM_DOF_HAS_NEAR) : 0u);
-    bool more = sprites || (wanted & uint(GLOAM_DOF_HAS_NEAR)) != 0u;
+    bool more = sprites || own.near_radius > 0.0;
     uint prefilter = uint(k + (more ? GLOAM_DOF_PREFILTER_MORE : GLOAM_DOF_PREFILTER));
     if (wanted != 0u) append(prefilter, dof.prefilter_tiles[k], DofEntry(place, int(wanted)));
     float greatest = k == dof.last_level ? dof.radius : dof.to[k];

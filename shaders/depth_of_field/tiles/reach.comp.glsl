@@ -19,8 +19,9 @@ layout(set = 0, binding = 3, scalar) readonly buffer PictureBounds { DofPictureB
 void main() {
   ivec2 tile = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(tile, ivec2(dof.tiles)))) return;
-  uint near = 0u, open = 0u;  // open: levels whose kernels find light that is not before the focus
+  uint near = 0u, open = 0u;  // open: levels whose kernels find light behind the tile's objects
   float near_radius = 0.0;
+  DofTileBounds own = bounds[tile.y * int(dof.tiles.x) + tile.x];
   int reach = max(near_spread(), find_spreads());
   for (int y = -reach; y <= reach; ++y)
     for (int x = -reach; x <= reach; ++x) {
@@ -35,9 +36,9 @@ void main() {
       }
       near |= found.near & reaching;
       near_radius = max(near_radius, (found.near & reaching) != 0u ? found.near_radius : 0.0);
-      open |= found.open != 0u ? levels_read(apart) : 0u;
+      // As lies_behind(): light of a half float's rounding less is found as well.
+      open |= found.least_near < 0.51 * own.near_radius ? levels_read(apart) : 0u;
     }
-  DofTileBounds own = bounds[tile.y * int(dof.tiles.x) + tile.x];
   // Behind the tile's own objects before the focus, the far layer is filled in from what is visible near them.
   uint far = own.far | (open & own.fill);
   reached[tile.y * int(dof.tiles.x) + tile.x] = DofTileReach(far, near, near_radius);

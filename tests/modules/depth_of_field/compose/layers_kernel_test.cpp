@@ -176,6 +176,27 @@ TEST_P(DofLayersTest, near_objects_are_as_solid_as_through_a_lens) {
       }
 }
 
+// The light behind a wire is that of a ground that lies before the focus as well.
+TEST_P(DofLayersTest, near_objects_show_a_ground_behind_them_that_is_before_the_focus) {
+  for (const float circle : {7.0f, 11.0f})
+    for (const float behind : {0.7f, 2.0f, 3.0f})
+      for (const auto& [left, right] : {std::pair{50u, 78u}, {60u, 68u}, {62u, 66u}})
+        for (const auto& [object, ground] : {std::pair{1.0f, 0.1f}, {0.1f, 1.0f}}) {
+          DofInput in(kWidth, kHeight, -behind, vec4(ground));
+          fill(in, {left, 0, right, kHeight}, -circle, vec4(object));
+          each_kernel(in, [&](const DofResult& result, const DofInput& drawn, const std::string& name) {
+            const std::string which = name + ", " + std::to_string(right - left) + " wide, " + std::to_string(object) +
+                                      ", circles " + std::to_string(circle) + " and " + std::to_string(behind);
+            for (std::uint32_t x = 0; x < kWidth; ++x) {
+              const double alpha = static_cast<double>((result.light[drawn.at(x, 48)].x - ground) / (object - ground));
+              const double expected = aperture_beyond(drawn.bokeh, left - (x + 0.5), double{circle}) -
+                                      aperture_beyond(drawn.bokeh, right - (x + 0.5), double{circle});
+              EXPECT_NEAR(alpha, expected, 0.08) << which << " " << x;
+            }
+          });
+        }
+}
+
 // A slope that passes through the focus keeps its light, and an object before it adds its own only.
 TEST_P(DofLayersTest, near_layers_keep_the_mean_light_of_a_textured_ground) {
   DofInput in(kWidth, kHeight, 0.0f);
