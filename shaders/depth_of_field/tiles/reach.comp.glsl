@@ -37,7 +37,7 @@ void main() {
       near |= found.near & reaching;
       near_radius = max(near_radius, (found.near & reaching) != 0u ? found.near_radius : 0.0);
       // As lies_behind(): light of a half float's rounding less is found as well.
-      open |= found.least_near < 0.51 * own.near_radius ? levels_read(apart) : 0u;
+      open |= found.least_near < max(0.81 * own.near_radius - 0.25, 1e-3) ? levels_read(apart) : 0u;
     }
   // Behind the tile's own objects before the focus, the far layer is filled in from what is visible near them.
   uint far = own.far | (open & own.fill);
