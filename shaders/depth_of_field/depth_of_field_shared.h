@@ -132,6 +132,7 @@ struct DofTileReach {
 struct DofSprite {
   vec2 place;  // centre of the light, pixels; the middle of the first pixel is 0
   float coc;   // radius in pixels, positive behind the focus
+  float soft;  // width of the disc's edge in pixels: that of the light's pixels together
   vec3 light;
 };
 

@@ -20,10 +20,11 @@ float aperture_distance(vec2 d) {
 // Share of a texel at this distance that lies in the aperture.
 float aperture_cover(float distance, float radius) { return clamp(radius + 0.5 - distance, 0.0, 1.0); }
 
-// Its sum over all texels, within 3 % from a radius of 1.9 on.
-float aperture_area(float radius) {
-  return (kHexagonal == 0u ? 3.14159265 : 3.46410162) * (radius * radius + 1.0 / 12.0);
+// Its sum over all texels, within 3 % from a radius of 1.9 on. soft: the width of the edge in texels.
+float soft_aperture_area(float radius, float soft) {
+  return (kHexagonal == 0u ? 3.14159265 : 3.46410162) * (radius * radius + soft * soft / 12.0);
 }
+float aperture_area(float radius) { return soft_aperture_area(radius, 1.0); }
 
 // Sum of aperture_cover() over all texels: exact below a radius of 2.4, where few texels have a weight.
 float aperture_sum(float radius) {

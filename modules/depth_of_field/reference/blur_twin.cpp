@@ -55,7 +55,7 @@ class DofTwin {
     }
   };
   struct Sprite {
-    double x = 0.0, y = 0.0, coc = 0.0;
+    double x = 0.0, y = 0.0, coc = 0.0, soft = 1.0;
     dvec3 light{0.0};
   };
 
@@ -83,11 +83,11 @@ class DofTwin {
     if (in_.bokeh == Bokeh::round) return std::sqrt(x * x + y * y);
     return std::max(x, 0.5 * x + std::sqrt(0.75) * y);
   }
-  /// Weight of light at a distance from where it is, over an aperture of this radius.
-  [[nodiscard]] double spread(double away, double radius) const {
+  /// Weight of light at a distance from where it is, over an aperture of this radius with an edge of this width.
+  [[nodiscard]] double spread(double away, double radius, double soft = 1.0) const {
     const double area =
-        (in_.bokeh == Bokeh::round ? 3.14159265358979 : std::sqrt(12.0)) * (radius * radius + 1.0 / 12.0);
-    return std::clamp(radius + 0.5 - away, 0.0, 1.0) / area;
+        (in_.bokeh == Bokeh::round ? 3.14159265358979 : std::sqrt(12.0)) * (radius * radius + soft * soft / 12.0);
+    return std::clamp((radius - away) / soft + 0.5, 0.0, 1.0) / area;
   }
 
   [[nodiscard]] int tile_of(int x, int y) const { return y / kTwinTile * across_ + x / kTwinTile; }
@@ -146,7 +146,8 @@ class DofTwin {
 
   /// Light that sprites take, and its place and circle, weighted by its brightness.
   struct Bright {
-    dvec3 light{0.0}, place{0.0};
+    dvec3 light{0.0};
+    dvec4 place{0.0};  ///< x, y, circle, x² + y²
     double weight = 0.0;
     void add(const Bright& other) {
       light += other.light;
@@ -154,7 +155,11 @@ class DofTwin {
       weight += other.weight;
     }
     void append_to(std::vector<Sprite>& sprites) const {
-      if (weight > 0.0) sprites.push_back({place.x / weight, place.y / weight, place.z / weight, light});
+      if (weight <= 0.0) return;
+      const dvec4 mean = place / weight;
+      const double variance = std::max(0.5 * (mean.w - mean.x * mean.x - mean.y * mean.y), 0.0);
+      const double soft = std::min(std::sqrt(12.0 * variance + 1.0), std::max(std::abs(mean.z), 1.0));
+      sprites.push_back({mean.x, mean.y, mean.z, soft, light});
     }
   };
   [[nodiscard]] Bright bright_block(int left, int top) const {
@@ -164,7 +169,7 @@ class DofTwin {
         const double part = all_finite(lit(x, y)) ? sprite_share(x, y) : 0.0;
         if (part <= 0.0) continue;
         const double weight = part * brightest(lit(x, y));
-        sum.add({part * lit(x, y), weight * dvec3(x, y, coc(x, y)), weight});
+        sum.add({part * lit(x, y), weight * dvec4(x, y, coc(x, y), x * x + y * y), weight});
       }
     return sum;
   }
@@ -356,7 +361,7 @@ class DofTwin {
     dvec3 behind = dvec3(far) + (1.0 - far.w) * sharp, before(0.0);
     for (const Sprite& sprite : sprites_) {
       const double radius = dof_kernel_radius(in_.bokeh, std::abs(sprite.coc), 0);
-      const dvec3 light = spread(distance(x - sprite.x, y - sprite.y), radius) * sprite.light;
+      const dvec3 light = spread(distance(x - sprite.x, y - sprite.y), radius, sprite.soft) * sprite.light;
       if (sprite.coc > 0.0)
         behind += light *
                   (signed_circle <= -kTwinFocus ? 1.0 : smooth_ramp(0.5 * sprite.coc, 0.8 * sprite.coc, signed_circle));

@@ -143,7 +143,7 @@ Quad near_light(ivec2 pixel, Quad level_1) {
 
 // Light of sprites at a pixel, behind the focus and before it. A surface before a sprite hides it.
 void add_sprite(DofSprite sprite, vec2 apart, float radius, float share, float coc, inout vec4 far, inout vec4 near) {
-  float cover = share * aperture_cover(aperture_distance(apart), radius);
+  float cover = share * clamp((radius - aperture_distance(apart)) / sprite.soft + 0.5, 0.0, 1.0);
   float behind = coc <= -kInFocus ? 1.0 : smoothstep(0.5 * sprite.coc, 0.8 * sprite.coc, coc);
   float before = 1.0 - smoothstep(1.25, 1.6, coc / sprite.coc);
   float seen = cover * (sprite.coc > 0.0 ? behind : before);
@@ -156,7 +156,7 @@ void add_sprites(ivec2 pixel, vec4 coc, inout Quad far, inout Quad near) {
   do {
     DofSprite sprite = sprites[reaching[first_sprite + i]];
     vec2 apart = vec2(pixel) - sprite.place;
-    float radius = kernel_radius(abs(sprite.coc), 0), share = 1.0 / aperture_area(radius);
+    float radius = kernel_radius(abs(sprite.coc), 0), share = 1.0 / soft_aperture_area(radius, sprite.soft);
     add_sprite(sprite, apart, radius, share, coc.x, far.p0, near.p0);
     add_sprite(sprite, apart + vec2(1.0, 0.0), radius, share, coc.y, far.p1, near.p1);
     add_sprite(sprite, apart + vec2(0.0, 1.0), radius, share, coc.z, far.p2, near.p2);

@@ -45,13 +45,13 @@ float surroundings(out float brightest) {
 // Circles from this radius on are much wider than four pixels.
 const float kWideCircle = 5.0;
 
-// Light that sprites take, and its place and signed circle, weighted by its brightness.
+// Light that sprites take, and, weighted by its brightness, its place in the tile, signed circle and squared place.
 struct Bright {
   vec3 light;
-  vec3 place;
+  vec4 place;
   float weight;
 };
-Bright no_light() { return Bright(vec3(0.0), vec3(0.0), 0.0); }
+Bright no_light() { return Bright(vec3(0.0), vec4(0.0), 0.0); }
 void add(inout Bright sum, Bright other) {
   sum.light += other.light;
   sum.place += other.place;
@@ -70,7 +70,8 @@ Bright bright_block(ivec2 corner, float around) {
     bool counts = all(lessThan(uvec2(pixel), dof.size)) && is_finite(own);
     float share = counts ? sprite_share(own, coc, around) : 0.0;
     vec3 taken = share > 0.0 ? share * own : vec3(0.0);
-    add(sum, Bright(taken, brightness(taken) * vec3(vec2(pixel), coc), brightness(taken)));
+    vec2 place = vec2(pixel - first);
+    add(sum, Bright(taken, brightness(taken) * vec4(place, coc, dot(place, place)), brightness(taken)));
   }
   return sum;
 }
@@ -78,9 +79,12 @@ Bright bright_block(ivec2 corner, float around) {
 uint count;  // sprites of the tile
 void append(uint tile, Bright found) {
   if (found.weight <= 0.0) return;
-  vec3 place = found.place / found.weight;
+  vec4 place = found.place / found.weight;
+  // A row of w pixels has a variance of (w² − 1) / 12.
+  float variance = max(0.5 * (place.w - dot(place.xy, place.xy)), 0.0);
+  float soft = min(sqrt(12.0 * variance + 1.0), max(abs(place.z), 1.0));
   if (count < uint(GLOAM_DOF_TILE_SPRITES))
-    sprites[tile * uint(GLOAM_DOF_TILE_SPRITES) + count] = DofSprite(place.xy, place.z, found.light);
+    sprites[tile * uint(GLOAM_DOF_TILE_SPRITES) + count] = DofSprite(vec2(first) + place.xy, place.z, soft, found.light);
   ++count;
 }
 

@@ -22,7 +22,7 @@ void main() {
   uint room = (uint(tile.y) * dof.tiles.x + uint(tile.x)) * uint(GLOAM_DOF_REACHING_SPRITES + 1);
   uint count = 0u;
   // Lists are read only if the picture has sprites at all.
-  int spread = 1 + int((uintBitsToFloat(picture.radius) + 1.0) / float(GLOAM_DOF_TILE));
+  int spread = 1 + int((uintBitsToFloat(picture.radius) + 4.0) / float(GLOAM_DOF_TILE));
   int reach = lists[GLOAM_DOF_SPRITES].count > 0u ? spread : -1;
   ivec2 low = max(tile - reach, ivec2(0)), high = min(tile + reach, ivec2(dof.tiles) - 1);
   vec2 corner = vec2(tile * GLOAM_DOF_TILE), end = corner + float(GLOAM_DOF_TILE - 1);
@@ -34,7 +34,7 @@ void main() {
         uint id = other * uint(GLOAM_DOF_TILE_SPRITES) + i;
         DofSprite sprite = sprites[id];
         vec2 apart = sprite.place - clamp(sprite.place, corner, end);
-        float far = abs(sprite.coc) + 1.0;
+        float far = abs(sprite.coc) + 0.4 + 0.6 * sprite.soft;
         bool reached = dot(apart, apart) < far * far;
         if (reached && count < uint(GLOAM_DOF_REACHING_SPRITES)) reaching[room + 1u + count] = id;
         count += reached ? 1u : 0u;

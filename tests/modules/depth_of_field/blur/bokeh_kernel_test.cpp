@@ -149,5 +149,52 @@ TEST_P(DofBokeh, is_evenly_lit_if_it_is_hexagonal) {
   });
 }
 
+/// Share of the light of a square lamp, columns and rows [first, first + side), that a pixel shows: by 4 × 4 points of
+/// each of its pixels.
+double square_through_lens(Bokeh bokeh, double radius, int first, int side, int x, int y) {
+  int inside = 0;
+  for (int v = 0; v < 4 * side; ++v)
+    for (int u = 0; u < 4 * side; ++u) {
+      const double dx = std::abs(first + (u + 0.5) / 4.0 - (x + 0.5)), dy = std::abs(first + (v + 0.5) / 4.0 - (y + 0.5));
+      const bool round = bokeh == Bokeh::round;
+      inside += round ? std::hypot(dx, dy) < radius
+                      : std::max(dx, 0.5 * dx + std::sqrt(0.75) * dy) < std::sqrt(0.75) * radius;
+    }
+  const double area = bokeh == Bokeh::round ? std::numbers::pi : 1.5 * std::sqrt(3.0);
+  return inside / (16.0 * side * side) / (area * radius * radius);
+}
+
+// A lamp of some pixels has a disc with an edge as soft as the lamp is wide: an overexposed one would show a hard edge.
+// Hard case: dof.lamps
+TEST_P(DofBokeh, spreads_a_lamp_of_some_pixels_as_each_of_them) {
+  constexpr int kSide = 96, kFirst = 45;
+  for (const Bokeh bokeh : {Bokeh::round, Bokeh::hexagonal})
+    for (const bool full : {false, true})
+      for (const int side : {2, 4, 7})
+        for (const float circle : {9.0f, 14.0f, -9.0f, -14.0f}) {
+          DofInput in(kSide, kSide, circle, vec4(0.0f, 0.0f, 0.0f, 1.0f));
+          for (int y = kFirst; y < kFirst + side; ++y)
+            for (int x = kFirst; x < kFirst + side; ++x)
+              in.light[in.at(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y))] = vec4(vec3(3000.0f), 1.0f);
+          in.knobs.full_resolution = full;
+          in.knobs.radius = 31.0f;
+          in.bokeh = bokeh;
+          const DofResult result = run(in);
+          const double radius = std::abs(static_cast<double>(circle));
+          const double most = square_through_lens(bokeh, radius, kFirst, side, 48, 48);
+          double worst = 0.0;
+          for (int y = 20; y < 76; ++y)
+            for (int x = 20; x < 76; ++x) {
+              const double shown =
+                  static_cast<double>(
+                      result.light[in.at(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y))].x) /
+                  3000.0 / (side * side);
+              worst = std::max(worst, std::abs(shown - square_through_lens(bokeh, radius, kFirst, side, x, y)) / most);
+            }
+          EXPECT_LT(worst, 0.15) << (bokeh == Bokeh::round ? "round" : "hexagonal") << (full ? ", full" : ", half")
+                                 << ", side " << side << ", circle " << circle;
+        }
+}
+
 }  // namespace
 }  // namespace gloam::test
