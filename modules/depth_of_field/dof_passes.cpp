@@ -33,7 +33,8 @@ void add_dof_passes(FrameBuilder& frame, const DepthOfField& values, const Lens&
 
 void list_dof_pipelines(const DofKnobs& knobs, bool threads_in_turn, PipelineList& list) {
   const auto add = [&](const ComputeProgram& program) { list.push_back(pipeline_desc(program, "depth_of_field")); };
-  for (const ComputeProgram& program : {dof_reset_program(), dof_bounds_program(), dof_find_sprites_program(), dof_reach_sprites_program()})
+  for (const ComputeProgram& program :
+       {dof_reset_program(), dof_bounds_program(), dof_find_sprites_program(), dof_reach_sprites_program()})
     add(program);
   for (const std::uint32_t kind :
        {GLOAM_DOF_COMPOSE_ONE, GLOAM_DOF_COMPOSE_ONE + 1, GLOAM_DOF_COMPOSE_TWO, GLOAM_DOF_COMPOSE_FAR,

@@ -37,19 +37,19 @@
 #define GLOAM_DOF_REACHING_SPRITES 144
 
 /// Lists of tiles, by the pass that runs in them. Of the first ones there is one for each level: list + level.
-#define GLOAM_DOF_PREFILTER 0        // tiles without sprites and without pixels before the focus
-#define GLOAM_DOF_PREFILTER_MORE 5   // other tiles
-#define GLOAM_DOF_FAR 10             // gathers of the far layer
-#define GLOAM_DOF_NEAR 15            // gathers of the near layer
-#define GLOAM_DOF_COMPOSE 20         // + what is composed
+#define GLOAM_DOF_PREFILTER 0       // tiles without sprites and without pixels before the focus
+#define GLOAM_DOF_PREFILTER_MORE 5  // other tiles
+#define GLOAM_DOF_FAR 10            // gathers of the far layer
+#define GLOAM_DOF_NEAR 15           // gathers of the near layer
+#define GLOAM_DOF_COMPOSE 20        // + what is composed
 // What is composed in a tile. Fine levels are 0 and 1.
-#define GLOAM_DOF_COMPOSE_ONE 0      // + level: one level of the far layer, not 0
-#define GLOAM_DOF_COMPOSE_TWO 5      // + level: two coarse levels of the far layer, this and the next
-#define GLOAM_DOF_COMPOSE_FAR 10     // any levels of the far layer
+#define GLOAM_DOF_COMPOSE_ONE 0         // + level: one level of the far layer, not 0
+#define GLOAM_DOF_COMPOSE_TWO 5         // + level: two coarse levels of the far layer, this and the next
+#define GLOAM_DOF_COMPOSE_FAR 10        // any levels of the far layer
 #define GLOAM_DOF_COMPOSE_NEAR_FINE 11  // fine levels of the near layer
-#define GLOAM_DOF_COMPOSE_NEAR 12    // any levels of the near layer
-#define GLOAM_DOF_COMPOSE_BOTH 13    // any levels of both
-#define GLOAM_DOF_COMPOSE_SPRITES 14 // these and sprites
+#define GLOAM_DOF_COMPOSE_NEAR 12       // any levels of the near layer
+#define GLOAM_DOF_COMPOSE_BOTH 13       // any levels of both
+#define GLOAM_DOF_COMPOSE_SPRITES 14    // these and sprites
 #define GLOAM_DOF_COMPOSE_KINDS 15
 // These only count.
 #define GLOAM_DOF_NEAR_TILES 35  // tiles that the near layer reaches
@@ -76,8 +76,8 @@ struct DofConstants {
   // Where circles pass from level k to level k + 1: radii in pixels.
   float from[GLOAM_DOF_LEVELS];
   float to[GLOAM_DOF_LEVELS];
-  ivec2 corner[GLOAM_DOF_LEVELS];  // of a level in the image of all levels
-  int taps[GLOAM_DOF_LEVELS];      // the farthest texel that a kernel of the level reads
+  ivec2 corner[GLOAM_DOF_LEVELS];         // of a level in the image of all levels
+  int taps[GLOAM_DOF_LEVELS];             // the farthest texel that a kernel of the level reads
   int prefilter_tiles[GLOAM_DOF_LEVELS];  // of a workgroup of the prefilter
   int gather_tiles[GLOAM_DOF_LEVELS];     // of a workgroup of the gathers
   int first_level;

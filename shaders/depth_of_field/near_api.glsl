@@ -5,8 +5,6 @@
 
 // Light multiplied by its coverage, and the coverage: adds what lies behind. Where both would cover more than a pixel,
 // what lies behind is hidden.
-vec4 under(vec4 front, vec4 behind) {
-  return front + behind * clamp((1.0 - front.a) / max(behind.a, 1e-9), 0.0, 1.0);
-}
+vec4 under(vec4 front, vec4 behind) { return front + behind * clamp((1.0 - front.a) / max(behind.a, 1e-9), 0.0, 1.0); }
 
 #endif

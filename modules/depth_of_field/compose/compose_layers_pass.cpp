@@ -20,8 +20,7 @@ ComputeProgram dof_compose_program(Bokeh bokeh, std::uint32_t kind, bool full_re
 void add_dof_compose_pass(FrameBuilder& frame, const DofFrame& dof, const DofLayers& gathered,
                           const DofSprites& sprites) {
   const auto program = [&](std::uint32_t kind) {
-    return dof_compose_program(dof.inputs.bokeh, kind, dof.inputs.knobs.full_resolution,
-                               dof.inputs.threads_in_turn);
+    return dof_compose_program(dof.inputs.bokeh, kind, dof.inputs.knobs.full_resolution, dof.inputs.threads_in_turn);
   };
   ComputePass pass(frame, "dof_compose", program(GLOAM_DOF_COMPOSE_FAR));
   LitOutput& lit = frame.get<LitOutput>();

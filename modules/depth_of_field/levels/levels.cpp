@@ -80,7 +80,8 @@ uvec2 set_dof_levels(const uvec2& size, const DofKnobs& knobs, Bokeh bokeh, shad
         k == c.last_level ? c.radius : std::min(c.radius, static_cast<float>(GLOAM_DOF_NEAR_FINER) * c.to[k]);
     const int texels = dof_texels(bokeh, dof_kernel_radius(bokeh, static_cast<double>(greatest), k));
     c.taps[k] = static_cast<int>(std::sqrt(static_cast<double>(texels)));
-    GLOAM_ASSERT(2 * c.taps[k] + std::max(GLOAM_DOF_TILE >> k, 2) <= GLOAM_DOF_ROOM, "a kernel reads texels that are not kept");
+    GLOAM_ASSERT(2 * c.taps[k] + std::max(GLOAM_DOF_TILE >> k, 2) <= GLOAM_DOF_ROOM,
+                 "a kernel reads texels that are not kept");
   }
   layers = {layers.x + across, std::max(layers.y, down)};
   c.inverse_layers = 1.0f / vec2(layers);

@@ -139,7 +139,9 @@ class DofTwin {
           const double between = k == 0 ? 1.0 : 1.5 * (1 << k),
                        radius = std::min(other.near_radius, kNearFiner * greatest(k));
           if (radius + between > kTwinTile * std::max(apart - 1, 0)) own.composed_near |= other.near & bit;
-          if (other.least_near < std::max(0.81 * own.near_radius - 0.25, 1e-3) && kTwinTile * (apart - 1) <= c_.taps[k] << k) own.composed_far |= own.fill & bit;
+          if (other.least_near < std::max(0.81 * own.near_radius - 0.25, 1e-3) && kTwinTile * (apart - 1) <= c_.taps[k]
+                                                                                                                 << k)
+            own.composed_far |= own.fill & bit;
         }
       }
   }
@@ -285,8 +287,7 @@ class DofTwin {
         if (other.w > 0.0 && own.w > 0.0)
           (other.w < own.w ? front : back) += spread(distance(dx, dy), std::min(other.w, own.w)) * counted;
         const bool behind = other.w > kNoLight || other.w - kNoLight > 0.8 * (own.w - kNoLight) + 0.25;
-        if (behind && dx * dx + dy * dy <= texels)
-          fill += counted / std::pow(dx * dx + dy * dy + 0.25, 2);
+        if (behind && dx * dx + dy * dy <= texels) fill += counted / std::pow(dx * dx + dy * dy + 0.25, 2);
       }
     if (own.w > 0.0) {
       front /= std::max(front.w, 1.0);

@@ -63,8 +63,8 @@ void add_dof_list_passes(FrameBuilder& frame, const DofInputs& inputs, const Dof
   list.read("tile_sprites", sprites.tiles);
   list.read("reaching", sprites.reaching);
   tiles.lists = list.write("lists", tiles.lists);
-  tiles.entries = list.write("entries", dof_tile_buffer(frame, inputs, "dof_list_entries",
-                                                        GLOAM_DOF_LISTS * sizeof(shaders::DofEntry)));
+  tiles.entries = list.write(
+      "entries", dof_tile_buffer(frame, inputs, "dof_list_entries", GLOAM_DOF_LISTS * sizeof(shaders::DofEntry)));
   list.dispatch_over(size);
 }
 

@@ -35,6 +35,7 @@ struct DofError {
 };
 struct DofErrors {
   std::array<DofError, kDofErrorResolutions.size()> by_resolution;
+  DofError without;       ///< of the frame without depth of field
   DofError noise;         ///< change of the reference from half of the samples to all
   bool measured = false;  ///< false: no camera has a focus
 };
@@ -86,6 +87,12 @@ Result<DofErrors> measure_dof_errors(BenchContext& context, Bokeh bokeh) {
     if (!error) return error.error();
     errors.by_resolution[i] = *error;
   }
+  (*frames)->turn(false);
+  const auto sharp = draw_resolution(costs, kDofErrorResolutions[0]);
+  if (!sharp) return sharp.error();
+  const auto without = error_of(judge, *sharp, expected_hash);
+  if (!without) return without.error();
+  errors.without = *without;
   return errors;
 }
 
@@ -110,6 +117,7 @@ void add_dof_error_rows(BenchRegistry& registry, Bokeh bokeh) {
   };
   for (std::size_t i = 0; i < kDofErrorResolutions.size(); ++i)
     add_both(kDofErrorResolutions[i], [i](const DofErrors& errors) { return errors.by_resolution[i]; });
+  add_both("without", [](const DofErrors& errors) { return errors.without; });
   add_both("reference_noise", [](const DofErrors& errors) { return errors.noise; });
 }
 

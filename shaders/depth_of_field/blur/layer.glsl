@@ -10,7 +10,9 @@ const float kNothing = -2.0;  // no light
 
 // Whether the light of a far texel can lie behind an object before the focus: that of surfaces behind the focus, in it,
 // or with smaller circles. Alphas of the object's texel and the other.
-bool lies_behind(float own, float other) { return other > kNothing || other - kNothing > 0.8 * (own - kNothing) + 0.25; }
+bool lies_behind(float own, float other) {
+  return other > kNothing || other - kNothing > 0.8 * (own - kNothing) + 0.25;
+}
 
 // Radii of the far layer are stored in sixteenths of a texel: a half float holds them exactly, so texels of one plane
 // compare as equal.

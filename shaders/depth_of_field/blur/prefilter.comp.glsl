@@ -9,9 +9,9 @@
 //
 // Far: light of the pixels behind the focus, and in alpha the radius of their kernel. If
 // there are none, the light of the pixels in focus and alpha 0, or kBeside if other pixels of the texel are before the
-// focus; if there are none of these either, that of the pixels before the focus, or kNothing. Near: light of the pixels before the focus that this level blurs,
-// multiplied by their share in the texel, and in alpha the share and the radius of their kernel (packed_near()). Light
-// that is not finite counts as absent, and sprites take theirs.
+// focus; if there are none of these either, that of the pixels before the focus, or kNothing. Near: light of the pixels
+// before the focus that this level blurs, multiplied by their share in the texel, and in alpha the share and the radius
+// of their kernel (packed_near()). Light that is not finite counts as absent, and sprites take theirs.
 
 layout(local_size_x_id = 2) in;
 layout(constant_id = 1) const uint kMore = 0u;  // 1: tiles with sprites or pixels before the focus

@@ -15,7 +15,7 @@ layout(local_size_x_id = 2) in;
 layout(constant_id = 2) const int kThreads = GLOAM_DOF_THREADS;
 // What is composed. Of GLOAM_DOF_COMPOSE_ONE the first item is that of level 1, the second that of any other level.
 layout(constant_id = 1) const uint kKind = GLOAM_DOF_COMPOSE_SPRITES;
-layout(constant_id = 3) const uint kFull = 0u;                         // 1: level 0 is used
+layout(constant_id = 3) const uint kFull = 0u;  // 1: level 0 is used
 const bool kSprites = kKind == GLOAM_DOF_COMPOSE_SPRITES;
 const bool kBoth = kSprites || kKind == GLOAM_DOF_COMPOSE_BOTH;
 const bool kFar = kBoth || kKind == GLOAM_DOF_COMPOSE_FAR;

@@ -26,7 +26,8 @@ float finite_brightness(ivec2 pixel) {
   return is_finite(light) ? max(brightness(light), 0.0) : 0.0;
 }
 
-// From the mean of the fourth roots of a quarter of the pixels: bright pixels hardly raise it. brightest: of all pixels.
+// From the mean of the fourth roots of a quarter of the pixels: bright pixels hardly raise it. brightest: of all
+// pixels.
 float surroundings(out float brightest) {
   float roots = 0.0;
   brightest = 0.0;
@@ -84,7 +85,8 @@ void append(uint tile, Bright found) {
   float variance = max(0.5 * (place.w - dot(place.xy, place.xy)), 0.0);
   float soft = min(sqrt(12.0 * variance + 1.0), max(abs(place.z), 1.0));
   if (count < uint(GLOAM_DOF_TILE_SPRITES))
-    sprites[tile * uint(GLOAM_DOF_TILE_SPRITES) + count] = DofSprite(vec2(first) + place.xy, place.z, soft, found.light);
+    sprites[tile * uint(GLOAM_DOF_TILE_SPRITES) + count] =
+        DofSprite(vec2(first) + place.xy, place.z, soft, found.light);
   ++count;
 }
 

@@ -155,7 +155,8 @@ double square_through_lens(Bokeh bokeh, double radius, int first, int side, int 
   int inside = 0;
   for (int v = 0; v < 4 * side; ++v)
     for (int u = 0; u < 4 * side; ++u) {
-      const double dx = std::abs(first + (u + 0.5) / 4.0 - (x + 0.5)), dy = std::abs(first + (v + 0.5) / 4.0 - (y + 0.5));
+      const double dx = std::abs(first + (u + 0.5) / 4.0 - (x + 0.5)),
+                   dy = std::abs(first + (v + 0.5) / 4.0 - (y + 0.5));
       const bool round = bokeh == Bokeh::round;
       inside += round ? std::hypot(dx, dy) < radius
                       : std::max(dx, 0.5 * dx + std::sqrt(0.75) * dy) < std::sqrt(0.75) * radius;
