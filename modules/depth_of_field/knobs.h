@@ -57,7 +57,8 @@ inline constexpr ChoiceKnob<bool> kDofFullResolution{
     .name = "dof.resolution",
     .meaning =
         "size of the images that are blurred, relative to the picture, from circles of 2 (half) or 4 (full) "
-        "pixels on; smaller ones are blurred pixel by pixel, and wider ones in smaller images",
+        "pixels on; smaller ones mix with the sharp picture (half) or are blurred pixel by pixel (full), and wider "
+        "ones are blurred in smaller images",
     .choices = {{"half", false}, {"full", true}}};
 
 void add_dof_knobs(KnobRegistry& registry);
