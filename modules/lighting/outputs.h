@@ -123,6 +123,20 @@ struct HomogeneousFog {
   float sky_distance_m = 0.0f;  ///< path length through the fog of light from beyond all surfaces
 };
 
+/// Light of the view that the camera's lens has spread over the picture. Pictures show (1 - share) · LitOutput + share ·
+/// the spread light: metering and tone mapping add it, so that it needs no pass over the picture. The module that spreads
+/// the light puts this on the board in PassPhase::post. LitOutput and Renderer::read_linear stay without it: they are
+/// the light that comes to the lens, which references trace.
+struct ScatteredLight {
+  ImageRef light;              ///< rgba16f, any size, read with Sampling::linear; scaled like LitOutput, at most 65504
+  vec2 uv_scale = vec2(0.0f);  ///< from positions in the picture, pixels, to those in `light`, 0…1
+  vec2 uv_offset = vec2(0.0f);
+  float share = 0.0f;  ///< 0…1
+};
+
+/// World resource: Renderer::read_linear gives the light as it is shown, with ScatteredLight.
+struct ShownLight {};
+
 /// The kind of shadows in a frame. It selects the variant of a shader that includes
 /// shaders/lighting/forward_lights_api.glsl.
 enum class ForwardShadows : std::uint8_t {

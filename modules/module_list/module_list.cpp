@@ -5,6 +5,7 @@
 #include "modules/closeups/module.h"
 #include "modules/depth_of_field/module.h"
 #include "modules/fog/module.h"
+#include "modules/glare/module.h"
 #include "modules/grass/module.h"
 #include "modules/lighting/module.h"
 #include "modules/lights/module.h"
@@ -25,6 +26,7 @@ ModuleList make_all_modules() {
   modules.push_back(make_particles_module());
   modules.push_back(make_fog_module());
   modules.push_back(make_depth_of_field_module());
+  modules.push_back(make_glare_module());
   return modules;
 }
 

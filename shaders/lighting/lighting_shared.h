@@ -14,8 +14,16 @@ struct EnvironmentConstants {
   vec4 ground;
 };
 
+/// Place of ScatteredLight in a picture.
+struct ScatteredConstants {
+  vec2 uv_scale;  // from pixels to the image
+  vec2 uv_offset;
+  float share;
+};
+
 /// Constants of the pass from linear light to picture.
 struct ToneMapConstants {
+  ScatteredConstants scattered;
   uint curve;        // of tone_curve.glsl
   uint metered;      // 1: `exposure` multiplies the metered exposure
   float exposure;    // factor for the view's light
@@ -30,6 +38,7 @@ struct ToneTableConstants {
 
 /// Constants for metering a view.
 struct MeterConstants {
+  ScatteredConstants scattered;
   uvec2 size;           // pixels of the picture
   float inverse_scale;  // 1 / light_scale
 };

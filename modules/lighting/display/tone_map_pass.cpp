@@ -7,6 +7,7 @@
 #include "modules/lighting/display/exposure.h"
 #include "modules/lighting/knobs.h"
 #include "modules/lighting/lighting_passes.h"
+#include "modules/lighting/outputs.h"
 #include "shaders/lighting/lighting_shared.h"
 #include "shaders/lighting/shaders.h"
 
@@ -27,12 +28,25 @@ Result<HistoryBuffer> exposure_of(FrameBuilder& frame) {
                                      .instance = std::uint64_t{camera.generation} << 32 | camera.index});
 }
 
+shaders::ScatteredConstants constants_of(const ScatteredLight& scattered) {
+  return {scattered.uv_scale, scattered.uv_offset, scattered.share};
+}
+
+/// What the camera's lens scatters; of a null image if it scatters nothing.
+ScatteredLight scattered_light(const FrameBuilder& frame) {
+  const auto* found = frame.find<ScatteredLight>();
+  return found != nullptr ? *found : ScatteredLight{};
+}
+
 /// Meters the frame's light into an exposure.
 void add_meter_pass(FrameBuilder& frame, BufferRef& exposure) {
-  ComputePass pass(frame, "meter", shaders::lighting::meter_comp);
+  const ScatteredLight scattered = scattered_light(frame);
+  ComputePass pass(frame, "meter", {shaders::lighting::meter_comp, {{"kScattered", scattered.light ? 1u : 0u}}});
+  pass.read("scattered_image", scattered.light, Sampling::linear);
   pass.read("lit_image", frame.get<LitOutput>().color);
   exposure = pass.write("exposure", exposure);
-  pass.push(shaders::MeterConstants{{frame.view().width, frame.view().height}, 1.0f / frame.view().light_scale});
+  pass.push(shaders::MeterConstants{
+      constants_of(scattered), {frame.view().width, frame.view().height}, 1.0f / frame.view().light_scale});
   pass.dispatch(1);
 }
 
@@ -65,7 +79,9 @@ void add_tone_map_passes(FrameBuilder& frame) {
   if (!frame.check(metered)) return;
   TargetOutput& target = frame.get<TargetOutput>();
 
+  const ScatteredLight scattered = scattered_light(frame);
   shaders::ToneMapConstants constants{};
+  constants.scattered = constants_of(scattered);
   constants.curve = tone_curve_of(frame);
   constants.encode_srgb = gpu::encodes_srgb(target.format) ? 0 : 1;
   constants.exposure = 1.0f / frame.view().light_scale;
@@ -82,10 +98,12 @@ void add_tone_map_passes(FrameBuilder& frame) {
   ImageRef shown = smooth ? create_view_image(frame, "shown", kShownFormat) : target.color;
   {
     DrawPass pass(frame, "tone_map",
-                  {shaders::lighting::tone_map_frag, {{"kTable", table ? 1u : 0u}, {"kOutput", output}}});
+                  {shaders::lighting::tone_map_frag,
+                   {{"kTable", table ? 1u : 0u}, {"kOutput", output}, {"kScattered", scattered.light ? 1u : 0u}}});
     pass.read("lit_image", frame.get<LitOutput>().color);
     pass.read("metered_exposure", metered->buffer);
     pass.read("table_image", table, Sampling::linear);
+    pass.read("scattered_image", scattered.light, Sampling::linear);
     pass.push(constants);
     shown = pass.target(shown);
     pass.draw_triangle();

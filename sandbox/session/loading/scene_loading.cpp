@@ -9,6 +9,7 @@
 #include "engine/core/text/nearest_name.h"
 #include "engine/scene/assets.h"
 #include "engine/scene/resources.h"
+#include "modules/glare/components.h"
 #include "modules/reflections/bake.h"
 #include "sandbox/output/file_io.h"
 #include "sandbox/scenes/builtin.h"
@@ -77,6 +78,7 @@ Result<SceneInfo> load_scene(const SceneRequest& request, const ModuleList& modu
     info.path = request.scene;
     scene.value()->build(world, info);
     add_flame_proxies(world);
+    add_default_glare(world);
   } else {
     const KeyRegistry registry = make_key_registry(modules);
     auto imported = import_gltf(request.scene, {.animation = request.animation}, registry, world, executor, log);

@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/lighting/lighting_shared.h"
+#include "shaders/lighting/scattered_light_api.glsl"
 #include "shaders/lighting/target.glsl"
 #include "shaders/lighting/display/tone_curve.glsl"
 
@@ -12,11 +13,13 @@
 
 layout(constant_id = 0) const uint kTable = 0u;
 layout(constant_id = 1) const uint kOutput = 0u;
+layout(constant_id = 2) const uint kScattered = 0u;  // 1: the lens scatters a share of the light
 
 layout(push_constant, scalar) uniform ToneMap { ToneMapConstants c; };
 layout(set = 0, binding = 0) uniform sampler2D lit_image;
 layout(set = 0, binding = 1, scalar) readonly buffer Exposure { float metered_exposure; };
 layout(set = 0, binding = 2) uniform sampler2D table_image;
+layout(set = 0, binding = 3) uniform sampler2D scattered_image;
 
 layout(location = 0) out vec4 out_color;
 
@@ -28,7 +31,12 @@ float looked_up(float x) {
 
 void main() {
   float exposure = c.metered != 0u ? metered_exposure * c.exposure : c.exposure;
-  vec3 x = clamp(texelFetch(lit_image, ivec2(gl_FragCoord.xy), 0).rgb * exposure, vec3(0.0), vec3(1e6));
+  vec3 light = texelFetch(lit_image, ivec2(gl_FragCoord.xy), 0).rgb;
+  if (kScattered != 0u) {
+    vec2 at = gl_FragCoord.xy * c.scattered.uv_scale + c.scattered.uv_offset;
+    light = with_scattered_light(light, textureLod(scattered_image, at, 0.0).rgb, c.scattered.share);
+  }
+  vec3 x = clamp(light * exposure, vec3(0.0), vec3(1e6));
   x = before_curve(c.curve, x);
   vec3 shown;
   if (kTable != 0u)

@@ -1,0 +1,3 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
