@@ -18,6 +18,11 @@ namespace {
 
 constexpr gpu::Format kGlareFormat = gpu::Format::rgba16_float;
 
+constexpr std::int32_t kMostUnrolled = 4;  // pixels: loops of a known length are faster
+
+ComputeProgram collect_program(std::int32_t most_pixels) {
+  return {shaders::glare::collect_comp, {{"kMostPixels", most_pixels <= kMostUnrolled ? most_pixels : 0}}};
+}
 ComputeProgram spread_program(bool own, bool coarser) {
   return {shaders::glare::spread_comp, {{"kOwn", own ? 1u : 0u}, {"kCoarser", coarser ? 1u : 0u}}};
 }
@@ -39,12 +44,13 @@ ImageRef add_collect_passes(FrameBuilder& frame, const GlareLevels& levels) {
   const uvec2 corners = levels.cells + 1u;
   ImageRef parts = make_glare_image(frame, "glare_parts", 2u * corners);
   {
-    ComputePass pass(frame, "glare_collect", {shaders::glare::collect_comp});
+    const auto most_pixels = static_cast<std::int32_t>(std::ceil(levels.cell_px));
+    ComputePass pass(frame, "glare_collect", collect_program(most_pixels));
     pass.read("lit_image", frame.get<LitOutput>().color);
     parts = pass.write("parts_image", parts);
     pass.push(shaders::GlareCollect{ivec2(frame.view().width, frame.view().height), ivec2(corners),
                                     vec2(levels.origin_px), static_cast<float>(levels.cell_px),
-                                    static_cast<std::int32_t>(std::ceil(levels.cell_px))});
+                                    most_pixels});
     pass.dispatch_over(corners);
   }
   const uvec2 size = levels.levels.front().size;
@@ -117,9 +123,9 @@ void add_shown_light_pass(FrameBuilder& frame) {
 
 void list_glare_pipelines(PipelineList& list) {
   const auto add = [&](const ComputeProgram& program) { list.push_back(pipeline_desc(program, "glare")); };
-  for (const gpu::ShaderCode& shader :
-       {shaders::glare::collect_comp, shaders::glare::join_comp, shaders::glare::reduce_comp})
-    add({shader});
+  for (std::int32_t pixels = 1; pixels <= kMostUnrolled + 1; ++pixels) add(collect_program(pixels));
+  add({shaders::glare::join_comp});
+  add({shaders::glare::reduce_comp});
   add(spread_program(true, false));
   add(spread_program(true, true));
   add(spread_program(false, true));

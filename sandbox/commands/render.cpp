@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "modules/lighting/outputs.h"
 #include "sandbox/commands/commands.h"
 #include "sandbox/output/numbered_path.h"
 #include "sandbox/session/baking/captures.h"
@@ -140,6 +141,7 @@ Status run_render(const CommandContext& context) {
   set_size(session, options, shown.view);
   shown.fit = fits_heat_range(session.renderer->knobs()) && shows_heat(*session.renderer, options.view);
   const std::string path = options.out.empty() ? "out/" + scene_stem(options.scene) + ".png" : options.out;
+  if (path.ends_with(".exr")) session.world.set_resource(ShownLight{});
   const auto numbered = numbered_path(path);
   auto samples =
       numbered ? render_sequence(session, context, shown, *numbered) : render_frames(session, context, shown);

@@ -9,6 +9,8 @@
 // pixels between the centres of four cells, each pixel once, and writes a part of the light of each of the four
 // (join.comp). Light that is not a number counts as none, and infinite light as kMostLight.
 
+layout(constant_id = 0) const int kMostPixels = 0;  // GlareCollect::most_pixels, or 0: known at run time only
+
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(push_constant, scalar) uniform Collect { GlareCollect c; };
@@ -32,12 +34,13 @@ void main() {
   vec2 start = vec2(corner) - 0.5;
   ivec2 first = max(first_pixel(start), ivec2(0)), end = min(first_pixel(start + 1.0), c.size);
   float inverse_cell = 1.0 / c.cell;
+  int most = kMostPixels != 0 ? kMostPixels : c.most_pixels;
   vec3 sums[4] = vec3[4](vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
-  for (int y = 0; y < c.most_pixels; ++y) {
+  for (int y = 0; y < most; ++y) {
     int row = first.y + y;
     float down = (float(row) + 0.5 - c.origin.y) * inverse_cell - start.y;
     vec3 left = vec3(0.0), right = vec3(0.0);
-    for (int x = 0; x < c.most_pixels; ++x) {
+    for (int x = 0; x < most; ++x) {
       int column = first.x + x;
       vec3 light = texelFetch(lit_image, min(ivec2(column, row), c.size - 1), 0).rgb;
       float across = (float(column) + 0.5 - c.origin.x) * inverse_cell - start.x;

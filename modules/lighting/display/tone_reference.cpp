@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/math/srgb.h"
 #include "engine/scene/resources.h"
+#include "modules/lighting/outputs.h"
 
 namespace gloam {
 namespace {
@@ -59,6 +61,15 @@ LitPixels meter(const LinearPicture& lit, std::uint32_t side) {
   return metered;
 }
 
+/// The light that the frame's picture shows: with ScatteredLight, if the frame can be drawn again.
+Result<LinearPicture> light_of_frame(const ReferenceInput& input) {
+  if (!input.redraw) return input.frame.linear;
+  auto shown = input.redraw([](World& world) { world.set_resource(ShownLight{}); },
+                            [](World& world) { world.remove_resource<ShownLight>(); });
+  if (!shown) return shown.error();
+  return std::move(shown->linear);
+}
+
 }  // namespace
 
 dvec3 tone_mapped(ToneCurve curve, const dvec3& light) {
@@ -86,7 +97,9 @@ std::uint8_t dithered_step(double encoded, uvec2 pixel, std::uint32_t channel) {
 }
 
 Result<FramePictures> draw_tone_reference(const ReferenceInput& input) {
-  const LinearPicture& lit = input.frame.linear;
+  const auto shown_light = light_of_frame(input);
+  if (!shown_light) return shown_light.error();
+  const LinearPicture& lit = *shown_light;
   const auto& environment = input.world.resource<SceneEnvironment>();
   const double exposure = environment.has_exposure
                               ? 1.0 / (1.2 * std::exp2(static_cast<double>(environment.exposure_ev100)))

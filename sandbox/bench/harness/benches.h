@@ -89,6 +89,8 @@ void add_dof_cache_benches(BenchRegistry& registry);
 void add_dof_frame_benches(BenchRegistry& registry);
 /// Error of depth of field against frames through many points of the lens.
 void add_dof_error_benches(BenchRegistry& registry);
+/// Time that glare adds to a frame, against the gather pass.
+void add_glare_benches(BenchRegistry& registry);
 /// The tables and figures of the papers beside ours: each row runs a bench that was added before.
 void add_paper_benches(BenchRegistry& registry);
 /// Frames under time budgets: their times, the errors against the best of all combinations, changes.

@@ -97,6 +97,7 @@ BenchRegistry make_bench_registry() {
   add_dof_cache_benches(registry);
   add_dof_frame_benches(registry);
   add_dof_error_benches(registry);
+  add_glare_benches(registry);
   add_paper_benches(registry);
   return registry;
 }
