@@ -49,8 +49,7 @@ ImageRef add_collect_passes(FrameBuilder& frame, const GlareLevels& levels) {
     pass.read("lit_image", frame.get<LitOutput>().color);
     parts = pass.write("parts_image", parts);
     pass.push(shaders::GlareCollect{ivec2(frame.view().width, frame.view().height), ivec2(corners),
-                                    vec2(levels.origin_px), static_cast<float>(levels.cell_px),
-                                    most_pixels});
+                                    vec2(levels.origin_px), static_cast<float>(levels.cell_px), most_pixels});
     pass.dispatch_over(corners);
   }
   const uvec2 size = levels.levels.front().size;

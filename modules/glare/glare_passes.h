@@ -10,8 +10,8 @@ namespace gloam {
 /// > 0.
 void add_glare_passes(FrameBuilder& frame, float share, std::uint32_t lines);
 
-/// After tone mapping: LitOutput becomes the light as it is shown, with ScatteredLight, in another image. The frame graph
-/// leaves the pass out if nothing reads that image.
+/// After tone mapping: LitOutput becomes the light as it is shown, with ScatteredLight, in another image. The frame
+/// graph leaves the pass out if nothing reads that image.
 void add_shown_light_pass(FrameBuilder& frame);
 
 /// Appends the pipelines that add_glare_passes() wants.

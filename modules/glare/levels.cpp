@@ -56,7 +56,8 @@ const std::array<GlareGaussian, 6>& glare_spread() {
 
 double glare_level_sigma(std::uint32_t level) {
   // Variances in texels of the level: bilinear weights have 1/6 at the finest level, twice (collect.comp, and where the
-  // picture reads it); weights 1, 3, 3, 1 have 3/4 of a finer texel, down and up; weights 1, 2, 1 have 1/2 (spread.comp).
+  // picture reads it); weights 1, 3, 3, 1 have 3/4 of a finer texel, down and up; weights 1, 2, 1 have 1/2
+  // (spread.comp).
   const double way = 0.25 - (0.25 - 1.0 / 6.0) * std::ldexp(1.0, -2 * static_cast<int>(level));
   return std::sqrt(2.0 * way + 0.5);
 }

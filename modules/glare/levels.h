@@ -25,15 +25,15 @@ struct GlareGaussian {
 
 /// An image of the pyramid. Its texels cover the picture, and GLOAM_GLARE_MARGIN more beyond each edge.
 struct GlareLevel {
-  uvec2 size{1};       ///< texels, with the margin
+  uvec2 size{1};        ///< texels, with the margin
   float weight = 0.0f;  ///< of its blur in the spread; all weights sum to 1
 };
 
 /// The images for a picture, from the finest. The texels of each have twice the side of those before.
 struct GlareLevels {
-  double cell_px = 1.0;    ///< side of the finest texels, at least 1
-  glm::dvec2 origin_px{0.0};    ///< of the first cell within the margin: the cells lie symmetrically about the picture
-  uvec2 cells{1};          ///< of the finest level, without the margin
+  double cell_px = 1.0;       ///< side of the finest texels, at least 1
+  glm::dvec2 origin_px{0.0};  ///< of the first cell within the margin: the cells lie symmetrically about the picture
+  uvec2 cells{1};             ///< of the finest level, without the margin
   std::vector<GlareLevel> levels;
 };
 

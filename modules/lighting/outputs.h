@@ -123,10 +123,10 @@ struct HomogeneousFog {
   float sky_distance_m = 0.0f;  ///< path length through the fog of light from beyond all surfaces
 };
 
-/// Light of the view that the camera's lens has spread over the picture. Pictures show (1 - share) · LitOutput + share ·
-/// the spread light: metering and tone mapping add it, so that it needs no pass over the picture. The module that spreads
-/// the light puts this on the board in PassPhase::post. LitOutput and Renderer::read_linear stay without it: they are
-/// the light that comes to the lens, which references trace.
+/// Light of the view that the camera's lens has spread over the picture. Pictures show (1 - share) · LitOutput + share
+/// · the spread light: metering and tone mapping add it, so that it needs no pass over the picture. The module that
+/// spreads the light puts this on the board in PassPhase::post. LitOutput and Renderer::read_linear stay without it:
+/// they are the light that comes to the lens, which references trace.
 struct ScatteredLight {
   ImageRef light;              ///< rgba16f, any size, read with Sampling::linear; scaled like LitOutput, at most 65504
   vec2 uv_scale = vec2(0.0f);  ///< from positions in the picture, pixels, to those in `light`, 0…1

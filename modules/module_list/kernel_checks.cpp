@@ -18,9 +18,9 @@ namespace gloam {
 
 std::vector<KernelCheck> all_kernel_checks() {
   std::vector<KernelCheck> all = engine_kernel_checks();
-  for (auto* const of_module : {&shadow_kernel_checks, &lighting_kernel_checks, &reflection_kernel_checks,
-                                &grass_kernel_checks, &particle_kernel_checks, &dof_kernel_checks,
-                                &glare_kernel_checks}) {
+  for (auto* const of_module :
+       {&shadow_kernel_checks, &lighting_kernel_checks, &reflection_kernel_checks, &grass_kernel_checks,
+        &particle_kernel_checks, &dof_kernel_checks, &glare_kernel_checks}) {
     std::vector<KernelCheck> own = of_module();
     std::ranges::move(own, std::back_inserter(all));
   }

@@ -28,8 +28,8 @@ vec3 collected(vec3 light) {
 // The first pixel whose centre is at or after these positions, which are counted in cells from the first corner.
 ivec2 first_pixel(vec2 cells) { return ivec2(ceil(c.origin + cells * c.cell - 0.5)); }
 
-// Adds up the parts of the four cells around a corner, from the left to the right and from the top. most: pixels along a
-// side; loops of a known length are faster.
+// Adds up the parts of the four cells around a corner, from the left to the right and from the top. most: pixels along
+// a side; loops of a known length are faster.
 void add_parts(ivec2 first, ivec2 end, vec2 start, int most, out vec3 sums[4]) {
   float inverse_cell = 1.0 / c.cell;
   sums = vec3[4](vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
@@ -65,6 +65,5 @@ void main() {
   else
     add_parts(first, end, start, c.most_pixels, sums);
   float share = 1.0 / (c.cell * c.cell);
-  for (int i = 0; i < 4; ++i)
-    imageStore(parts_image, 2 * corner + ivec2(i & 1, i >> 1), vec4(sums[i] * share, 1.0));
+  for (int i = 0; i < 4; ++i) imageStore(parts_image, 2 * corner + ivec2(i & 1, i >> 1), vec4(sums[i] * share, 1.0));
 }

@@ -21,9 +21,9 @@ struct GlareCollect {
 
 /// Constants of passes over the texels of one level.
 struct GlareLevel {
-  ivec2 size;        // texels
-  vec2 inverse_from; // 1 / texels of the level that is read
-  float weight;      // share of this level in the spread
+  ivec2 size;         // texels
+  vec2 inverse_from;  // 1 / texels of the level that is read
+  float weight;       // share of this level in the spread
 };
 
 /// Constants of the pass that adds the scattered light to a picture (shaders/glare/show.comp.glsl).

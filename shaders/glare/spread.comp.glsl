@@ -23,8 +23,7 @@ void main() {
   vec3 light = vec3(0.0);
   if (kOwn != 0u) {
     vec2 inverse = 1.0 / vec2(c.size);
-    for (int i = 0; i < 4; ++i)
-      light += textureLod(level_image, vec2(texel + ivec2(i & 1, i >> 1)) * inverse, 0.0).rgb;
+    for (int i = 0; i < 4; ++i) light += textureLod(level_image, vec2(texel + ivec2(i & 1, i >> 1)) * inverse, 0.0).rgb;
     light *= 0.25 * c.weight;
   }
   if (kCoarser != 0u) {

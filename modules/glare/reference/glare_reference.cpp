@@ -19,8 +19,8 @@ Result<FramePictures> draw_glare_reference(const ReferenceInput& input) {
   std::vector<vec4> light(frame.rgba.size() / 4);
   for (std::size_t i = 0; i < light.size(); ++i)
     light[i] = {frame.rgba[4 * i], frame.rgba[4 * i + 1], frame.rgba[4 * i + 2], 1.0f};
-  const std::vector<dvec3> spread =
-      spread_light(light, {frame.width, frame.height}, input.executor, 65504.0 / static_cast<double>(input.view.light_scale));
+  const std::vector<dvec3> spread = spread_light(light, {frame.width, frame.height}, input.executor,
+                                                 65504.0 / static_cast<double>(input.view.light_scale));
   const auto share = static_cast<double>(glare_share(input.world, input.view));
   LinearPicture right = frame;
   for (std::size_t i = 0; i < light.size(); ++i)

@@ -29,9 +29,9 @@ constexpr int kGlareRounds = 25;
 constexpr int kGlareWarmUp = 3;
 
 struct GlareCost {
-  std::vector<double> passes_ns;    ///< of the module
-  std::vector<double> with_ns;      ///< of the module and tone mapping
-  std::vector<double> tone_map_ns;  ///< without glare
+  std::vector<double> passes_ns;                        ///< of the module
+  std::vector<double> with_ns;                          ///< of the module and tone mapping
+  std::vector<double> tone_map_ns;                      ///< without glare
   std::vector<double> frame_with_ns, frame_without_ns;  ///< GPU time of whole frames
   std::vector<double> gather_ns;
   std::uint64_t hash = 0;  ///< of the picture with glare

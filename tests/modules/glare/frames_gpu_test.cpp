@@ -82,8 +82,7 @@ class GlareFrames : public StageTest<GlareStage> {
     std::vector<vec4> texels(light.rgba.size() / 4);
     for (std::size_t i = 0; i < texels.size(); ++i)
       texels[i] = {light.rgba[4 * i], light.rgba[4 * i + 1], light.rgba[4 * i + 2], 1.0f};
-    const std::vector<dvec3> spread =
-        spread_light(texels, {light.width, light.height}, *make_serial_executor(), 1e30);
+    const std::vector<dvec3> spread = spread_light(texels, {light.width, light.height}, *make_serial_executor(), 1e30);
     double apart = 0.0, glow = 0.0;
     for (std::size_t i = 0; i < texels.size(); ++i)
       for (int c = 0; c < 3; ++c) {

@@ -20,7 +20,9 @@ constexpr float kBrightestHalf = 65504.0f;
 GlareInput night(uvec2 size, std::uint32_t seed) {
   GlareInput in(size);
   std::mt19937 random(seed);
-  const auto between = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  const auto between = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
   for (vec4& light : in.light) {
     const float dim = static_cast<float>(between(0.01, 0.1));
     light = vec4(dim, 0.5f * dim, 2.0f * dim, 1.0f);

@@ -49,6 +49,7 @@ TEST_F(ModuleDemand, an_empty_world_calls_for_lighting_alone) {
   EXPECT_EQ(demand("grass"), "-no surface grows grass");
   EXPECT_EQ(demand("particles"), "-no emitter");
   EXPECT_EQ(demand("depth_of_field"), "-no camera has a focus");
+  EXPECT_EQ(demand("glare"), "-no camera has glare");
 }
 
 TEST_F(ModuleDemand, lights_call_for_lights_and_shadows) {

@@ -7,6 +7,7 @@
 #include "engine/scene/units.h"
 #include "modules/closeups/components.h"
 #include "modules/depth_of_field/components.h"
+#include "modules/glare/components.h"
 #include "modules/reflections/components.h"
 #include "modules/shadows/components.h"
 #include "tests/modules/keys/scene_format_looks.h"
@@ -218,6 +219,15 @@ std::vector<Line> camera_material_and_scene_lines() {
        text("hexagonal"),
        {text("star"), number(6)},
        field(&DepthOfField::bokeh, Bokeh::hexagonal)},
+      {camera_node,
+       "gloam.camera.glare",
+       "glare",
+       KeyType::number,
+       "%",
+       "2",
+       number(5),
+       {number(-0.1), number(20.1), text("much")},
+       field(&Glare::share, 0.05f)},
       {material,
        "gloam.reflectivity",
        "engine",

@@ -70,6 +70,11 @@ MUTATIONS = (
      "? 3.3 : 3.6"),
     ("a hexagon with unequal sides", "kernel.bokeh_shape", "depth_of_field/kernel_api.glsl",
      "0.5 * a.x + kInnerRadius * a.y", "0.5 * a.x + a.y"),
+    ("glare that loses pixels between cells", "kernel.glare_energy", "glare/collect.comp.glsl",
+     "first_pixel(start + 1.0)", "first_pixel(start + 0.5)"),
+    ("glare that moves by a texel of each level", "kernel.glare_place", "glare/reduce.comp.glsl",
+     "+ 1 + GLOAM_GLARE_MARGIN", "+ 2 + GLOAM_GLARE_MARGIN"),
+    ("glare of equal levels", "kernel.glare_spread", "glare/spread.comp.glsl", "0.25 * c.weight", "0.25 / 6.0"),
 )
 
 # Mutations that each test run tries; the others compile many shaders, or draw many pictures.

@@ -39,7 +39,8 @@ TEST_F(SpreadLight, of_a_pixel_is_the_integral_of_the_spread) {
   std::vector<vec4> light(kWidth * kHeight, vec4(0.0f));
   light[20 * kWidth + 30] = vec4(100.0f, 50.0f, 0.0f, 1.0f);
   const std::vector<dvec3> spread = spread_light(light, {kWidth, kHeight}, *executor);
-  for (const auto& [x, y] : {std::pair(30, 20), std::pair(31, 20), std::pair(30, 25), std::pair(50, 3), std::pair(0, 47)}) {
+  for (const auto& [x, y] :
+       {std::pair(30, 20), std::pair(31, 20), std::pair(30, 25), std::pair(50, 3), std::pair(0, 47)}) {
     const double share = pixel_sum(x - 30, y - 20, kHeight);
     const dvec3 found = spread[static_cast<std::size_t>(y) * kWidth + static_cast<std::size_t>(x)];
     EXPECT_NEAR(found.x, 100.0 * share, 1e-3 * 100.0 * share);
