@@ -124,9 +124,10 @@ struct HomogeneousFog {
 };
 
 /// Light of the view that the camera's lens has spread over the picture. Pictures show (1 - share) · LitOutput + share
-/// · the spread light: metering and tone mapping add it, so that it needs no pass over the picture. The module that
-/// spreads the light puts this on the board in PassPhase::post. LitOutput and Renderer::read_linear stay without it:
-/// they are the light that comes to the lens, which references trace.
+/// · the spread light: tone mapping adds it, so that it needs no pass over the picture. The module that spreads the
+/// light puts this on the board in PassPhase::post. LitOutput and Renderer::read_linear stay without it: they are the
+/// light that comes to the lens, which references trace. Metering does not see it either: it would light every black
+/// pixel around a lamp, and black pixels do not count.
 struct ScatteredLight {
   ImageRef light;              ///< rgba16f, any size, read with Sampling::linear; scaled like LitOutput, at most 65504
   vec2 uv_scale = vec2(0.0f);  ///< from positions in the picture, pixels, to those in `light`, 0…1

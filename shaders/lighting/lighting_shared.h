@@ -38,7 +38,6 @@ struct ToneTableConstants {
 
 /// Constants for metering a view.
 struct MeterConstants {
-  ScatteredConstants scattered;
   uvec2 size;           // pixels of the picture
   float inverse_scale;  // 1 / light_scale
 };

@@ -40,13 +40,10 @@ ScatteredLight scattered_light(const FrameBuilder& frame) {
 
 /// Meters the frame's light into an exposure.
 void add_meter_pass(FrameBuilder& frame, BufferRef& exposure) {
-  const ScatteredLight scattered = scattered_light(frame);
-  ComputePass pass(frame, "meter", {shaders::lighting::meter_comp, {{"kScattered", scattered.light ? 1u : 0u}}});
-  pass.read("scattered_image", scattered.light, Sampling::linear);
+  ComputePass pass(frame, "meter", shaders::lighting::meter_comp);
   pass.read("lit_image", frame.get<LitOutput>().color);
   exposure = pass.write("exposure", exposure);
-  pass.push(shaders::MeterConstants{
-      constants_of(scattered), {frame.view().width, frame.view().height}, 1.0f / frame.view().light_scale});
+  pass.push(shaders::MeterConstants{{frame.view().width, frame.view().height}, 1.0f / frame.view().light_scale});
   pass.dispatch(1);
 }
 

@@ -103,7 +103,7 @@ Result<FramePictures> draw_tone_reference(const ReferenceInput& input) {
   const auto& environment = input.world.resource<SceneEnvironment>();
   const double exposure = environment.has_exposure
                               ? 1.0 / (1.2 * std::exp2(static_cast<double>(environment.exposure_ev100)))
-                              : metered_exposure(lit);
+                              : metered_exposure(input.frame.linear);
   const ToneCurve curve = input.knobs.value(kToneMap);
   const bool dithers = input.knobs.value(kDither);
   FramePictures right;

@@ -3,7 +3,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/lighting/lighting_shared.h"
-#include "shaders/lighting/scattered_light_api.glsl"
 
 // Automatic exposure of one view: the mean of log2 luminance over a grid of 32×32 pixels, summed in a fixed order so
 // that the result does not depend on the subgroup size. Then the key value of Krawczyk et al. 2005, which keeps night
@@ -16,14 +15,11 @@
 const uint kRows = 32u;  // a thread each
 const uint kFewest = 32u;
 
-layout(constant_id = 0) const uint kScattered = 0u;  // 1: the lens scatters a share of the light
-
 layout(local_size_x = 32) in;
 
 layout(push_constant, scalar) uniform Meter { MeterConstants c; };
 layout(set = 0, binding = 0) uniform sampler2D lit_image;
 layout(set = 0, binding = 1, scalar) buffer Exposure { float exposure; };
-layout(set = 0, binding = 2) uniform sampler2D scattered_image;
 
 shared float sums[kRows];
 shared uint counts[kRows];
@@ -33,10 +29,6 @@ void add_row(uint row, uint side, inout float sum, inout uint count) {
   for (uint column = 0u; column < side; ++column) {
     uvec2 pixel = (uvec2(column, row) * 2u + 1u) * c.size / (2u * side);
     vec3 light = texelFetch(lit_image, ivec2(pixel), 0).rgb;
-    if (kScattered != 0u) {
-      vec2 at = (vec2(pixel) + 0.5) * c.scattered.uv_scale + c.scattered.uv_offset;
-      light = with_scattered_light(light, textureLod(scattered_image, at, 0.0).rgb, c.scattered.share);
-    }
     float luminance = dot(light, vec3(0.2126, 0.7152, 0.0722)) * c.inverse_scale;
     if (!(luminance > 0.0)) continue;
     sum += log2(clamp(luminance, 1e-4, 1e30));  // lower limit: a dark picture must not get an unbounded exposure
