@@ -11,6 +11,9 @@ namespace gloam {
 namespace {
 
 constexpr double kNarrowest = 1.0 / 90.0;  // sigma of the first Gaussian, heights
+// Along a side of the finest level. The image of its parts has twice as many texels and a few more, which every device
+// can make.
+constexpr double kMostCells = 2000.0;
 
 /// Standard deviation of a level's blur in texels of the finest level.
 double sigma_in_cells(std::size_t level) {
@@ -64,19 +67,20 @@ double glare_level_sigma(std::uint32_t level) {
 
 GlareLevels glare_levels(uvec2 picture, std::uint32_t lines) {
   GlareLevels result;
-  const double rows = std::min(lines, picture.y);
-  result.cell_px = picture.y / rows;
-  const double columns = std::ceil(picture.x / result.cell_px - 1e-9);
+  const double width = picture.x, height = picture.y;
+  result.cell_px = std::max({height / std::min(lines, picture.y), width / kMostCells, height / kMostCells});
+  const double columns = std::ceil(width / result.cell_px - 1e-9), rows = std::ceil(height / result.cell_px - 1e-9);
   result.cells = uvec2(static_cast<std::uint32_t>(columns), static_cast<std::uint32_t>(rows));
-  result.origin_px = {0.5 * (picture.x - columns * result.cell_px), 0.0};
-  result.levels.resize(level_count(glare_spread().back().sigma * rows));
+  result.origin_px = 0.5 * (glm::dvec2(width, height) - result.cell_px * glm::dvec2(columns, rows));
+  const double height_cells = height / result.cell_px;
+  result.levels.resize(level_count(glare_spread().back().sigma * height_cells));
   uvec2 cells = result.cells;
   for (GlareLevel& level : result.levels) {
     level.size = cells + 2u * GLOAM_GLARE_MARGIN;
     cells = (cells + 1u) / 2u;
   }
   for (const GlareGaussian& gaussian : glare_spread())
-    add_gaussian(gaussian.sigma * rows, gaussian.share, result.levels);
+    add_gaussian(gaussian.sigma * height_cells, gaussian.share, result.levels);
   return result;
 }
 

@@ -7,7 +7,7 @@
 // Collects the light of a picture in square cells. Each pixel's light goes to the four cells whose centres surround the
 // pixel's centre, by bilinear weights: so each pixel gives the same light, and its centre is kept. A thread takes the
 // pixels between the centres of four cells, each pixel once, and writes a part of the light of each of the four
-// (join.comp). Light that is not a number counts as none, and infinite light as kMostLight.
+// (join.comp). Light that is not a number counts as none, and infinite light as GLOAM_GLARE_MOST_LIGHT.
 
 layout(constant_id = 0) const int kMostPixels = 0;  // GlareCollect::most_pixels, or 0: known at run time only
 
@@ -17,12 +17,10 @@ layout(push_constant, scalar) uniform Collect { GlareCollect c; };
 layout(set = 0, binding = 0) uniform sampler2D lit_image;
 layout(set = 0, binding = 1, rgba16f) uniform writeonly image2D parts_image;
 
-const float kMostLight = 65504.0;
-
 // Bits are compared, because compilers may assume that comparisons of floats never see NaN.
 vec3 collected(vec3 light) {
   bvec3 is_nan = greaterThan(floatBitsToUint(light) & 0x7FFFFFFFu, uvec3(0x7F800000u));
-  return mix(clamp(light, vec3(0.0), vec3(kMostLight)), vec3(0.0), is_nan);
+  return mix(clamp(light, vec3(0.0), vec3(GLOAM_GLARE_MOST_LIGHT)), vec3(0.0), is_nan);
 }
 
 // The first pixel whose centre is at or after these positions, which are counted in cells from the first corner.
@@ -65,5 +63,7 @@ void main() {
   else
     add_parts(first, end, start, c.most_pixels, sums);
   float share = 1.0 / (c.cell * c.cell);
-  for (int i = 0; i < 4; ++i) imageStore(parts_image, 2 * corner + ivec2(i & 1, i >> 1), vec4(sums[i] * share, 1.0));
+  for (int i = 0; i < 4; ++i)
+    imageStore(parts_image, 2 * corner + ivec2(i & 1, i >> 1),
+               vec4(min(sums[i] * share, vec3(GLOAM_GLARE_MOST_LIGHT)), 1.0));
 }

@@ -10,6 +10,9 @@ GLOAM_SHARED_BEGIN
 /// Texels of a level beyond each edge of the picture.
 #define GLOAM_GLARE_MARGIN 2
 
+/// The most light of a texel: what half floats hold. Sums of rounded values may exceed it.
+#define GLOAM_GLARE_MOST_LIGHT 65504.0
+
 /// Constants of the pass that collects a picture's light in cells (shaders/glare/collect.comp.glsl).
 struct GlareCollect {
   ivec2 size;       // pixels of the picture

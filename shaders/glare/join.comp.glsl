@@ -22,5 +22,5 @@ void main() {
     ivec2 part = first + ivec2(i & 1, i >> 1), inside = clamp(part, ivec2(0), most);
     light += part == inside ? texelFetch(parts_image, inside, 0).rgb : vec3(0.0);
   }
-  imageStore(level_image, texel, vec4(light, 1.0));
+  imageStore(level_image, texel, vec4(min(light, vec3(GLOAM_GLARE_MOST_LIGHT)), 1.0));
 }

@@ -22,5 +22,5 @@ void main() {
     vec2 at = middle + vec2((i & 1) == 0 ? -0.75 : 0.75, i < 2 ? -0.75 : 0.75);
     light += textureLod(finer_image, at * c.inverse_from, 0.0).rgb;
   }
-  imageStore(level_image, texel, vec4(0.25 * light, 1.0));
+  imageStore(level_image, texel, vec4(min(0.25 * light, vec3(GLOAM_GLARE_MOST_LIGHT)), 1.0));
 }

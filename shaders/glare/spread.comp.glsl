@@ -30,5 +30,5 @@ void main() {
     vec2 at = (vec2(texel - GLOAM_GLARE_MARGIN) + 0.5) * 0.5 + float(GLOAM_GLARE_MARGIN);
     light += textureLod(coarser_image, at * c.inverse_from, 0.0).rgb;
   }
-  imageStore(spread_image, texel, vec4(light, 1.0));
+  imageStore(spread_image, texel, vec4(min(light, vec3(GLOAM_GLARE_MOST_LIGHT)), 1.0));
 }

@@ -13,7 +13,8 @@ from window_case import Picture, read_png
 
 EFFECTS = {"lamp": lamp, "spot": spot, "sun": sun, "closeup": closeup, "fog": fog, "lens": lens, "puddle": puddle, "room": room,
            "glass": glass, "smoke": smoke, "lawn": lawn, "lawn in the sun": lambda: lawn(sun=True)}
-PLAIN = ("--set", "lighting.tone_map=linear", "--set", "lighting.dither=off", "--set", "lighting.antialiasing=off")
+PLAIN = ("--set", "lighting.tone_map=linear", "--set", "lighting.dither=off", "--set", "lighting.antialiasing=off",
+         "--set", "glare.lines=off")
 DAYS_30 = 30 * 86400
 RED, GREEN = (255, 0, 0), (0, 255, 0)
 TINY = 1e-40  # a denormal float
