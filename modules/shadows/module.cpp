@@ -160,6 +160,7 @@ class ShadowsModule final : public Module {
     sink.count("shadows.casting_lights", view_faces.casting_lights);
     sink.count("shadows.faces_drawn", counts.drawn);
     sink.count("shadows.faces_cached", counts.cached);
+    sink.count("shadows.faces_in_turn", counts.in_turn);
     sink.count("shadows.faces_skipped", counts.skipped);
     sink.count("shadows.texels_drawn", static_cast<double>(counts.texels));
     sink.count("shadows.faces_shrunk", view_faces.faces_shrunk);

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -52,23 +53,37 @@ struct CasterProjection {
   }
 };
 
+class FrameBuilder;
+
+/// A part of a face that a source will be drawn into, for CasterSource::prepare.
+struct CasterSourcePart {
+  CasterProjection projection;
+  vec4 clip = vec4(-1.0f, -1.0f, 1.0f, 1.0f);  ///< least x and y, greatest x and y of the part in clip space, over w
+  float reach_m = 0.0f;  ///< surfaces farther than this from the projection's origin cast nothing; 0: no limit
+};
+
 /// One face, or part of a face, that a source is being drawn into.
 class CasterSourceDraw {
  public:
   /// bias_units, bias_slope: as in CommandList::set_depth_bias.
+  /// part: see part().
   CasterSourceDraw(PassContext& context, const CasterProjection& projection, std::uint32_t face_size, float bias_units,
-                   float bias_slope)
+                   float bias_slope, std::uint32_t part)
       : context_(context),
         projection_(projection),
         face_size_(face_size),
         bias_units_(bias_units),
-        bias_slope_(bias_slope) {}
+        bias_slope_(bias_slope),
+        part_(part) {}
 
   [[nodiscard]] PassContext& context() const { return context_; }
   [[nodiscard]] const CasterProjection& projection() const { return projection_; }
   /// Texels of the face's side. Parts of a face have the projection and the size of the whole face, and the triangles
   /// must be the same in all of them.
   [[nodiscard]] std::uint32_t face_size() const { return face_size_; }
+  /// Index of the part by CasterSource::prepare; kNoPart: the part has not been prepared.
+  [[nodiscard]] std::uint32_t part() const { return part_; }
+  static constexpr std::uint32_t kNoPart = ~0u;
   /// Binds a pipeline of caster_pipeline_desc() with the map's depth bias.
   void bind_pipeline(gpu::PipelineHandle pipeline) const;
 
@@ -78,6 +93,7 @@ class CasterSourceDraw {
   std::uint32_t face_size_;
   float bias_units_;
   float bias_slope_;
+  std::uint32_t part_;
 };
 
 /// Triangles that cast shadows and belong to no mesh. A source that no light's face may see is neither declared nor
@@ -94,6 +110,12 @@ struct CasterSource {
   /// The triangles differ from frame to frame, and content_hash is ignored. Faces that see the source are redrawn every
   /// frame inside its bounds; the depth of resting casters is taken from the cache.
   bool moving = false;
+  /// Of a moving source: it is redrawn in every turns-th frame only, each face in a frame of its own, as long as
+  /// content_hash is the same. Where another caster moves, the source is redrawn with it. ≥ 1.
+  std::uint32_t turns = 1;
+  /// Adds passes that prepare the source for these parts of faces, e.g. lists of what each of them sees, and returns
+  /// the index of the first part. Called before declare_reads, any number of times a frame. May be empty.
+  std::function<std::uint32_t(FrameBuilder&, std::span<const CasterSourcePart>)> prepare;
   /// Declares what `record` reads, e.g. buffers that earlier passes of the frame write. Called once for each pass that
   /// draws maps, if any face of the frame draws the source. May be empty.
   std::function<void(PassBuilder&)> declare_reads;

@@ -116,7 +116,8 @@ std::vector<FaceContent> face_contents(std::span<const ShadowFace> faces, std::s
 bool ShadowCache::has_map(const ShadowFace& face, const FaceContent& content) const {
   if (content.moving) return false;
   const auto found = maps_.find(key_of(face));
-  return found != maps_.end() && found->second.square == face.square && found->second.content == content;
+  return found != maps_.end() && found->second.square == face.square && found->second.content == content &&
+         found->second.late.empty();
 }
 
 bool ShadowCache::has_map_of_frame(const ShadowFace& face, const FaceContent& content, std::uint64_t frame) const {
@@ -125,11 +126,19 @@ bool ShadowCache::has_map_of_frame(const ShadowFace& face, const FaceContent& co
          found->second.frame == frame && frame > 0;
 }
 
-void ShadowCache::keep(const FaceKey& face, const FaceContent& content, std::uint64_t frame) {
+void ShadowCache::keep(const FaceKey& face, const FaceContent& content, std::uint64_t frame,
+                       std::vector<CasterBox> late) {
   const auto found = maps_.find(face);
   if (found == maps_.end()) return;
   found->second.content = content;
   found->second.frame = frame;
+  found->second.late = std::move(late);
+}
+
+std::span<const CasterBox> ShadowCache::late(const ShadowFace& face) const {
+  const auto found = maps_.find(key_of(face));
+  if (found == maps_.end()) return {};
+  return found->second.late;
 }
 
 void ShadowCache::forget_overlapping(const AtlasSquare& square) {

@@ -51,9 +51,11 @@ class ShadowCache {
   /// Records that the face's map was drawn at face.square with the casters of that frame. Maps that overlap the square
   /// are forgotten.
   void set_drawn(const ShadowFace& face, const FaceContent& content, std::uint64_t frame = 0);
-  /// Records that the face's map is right for that frame as well, and its content. Without effect if the map has been
-  /// forgotten.
-  void keep(const FaceKey& face, const FaceContent& content, std::uint64_t frame);
+  /// Records that the face's map is right for that frame as well, and its content. late: boxes inside which it is out
+  /// of date and waits for its turn. Without effect if the map has been forgotten.
+  void keep(const FaceKey& face, const FaceContent& content, std::uint64_t frame, std::vector<CasterBox> late = {});
+  /// Boxes inside which the face's map has waited for its turn since it was drawn.
+  [[nodiscard]] std::span<const CasterBox> late(const ShadowFace& face) const;
   /// The face's backgrounds; empty when the atlas does not hold its map.
   [[nodiscard]] std::span<const FaceBackground> backgrounds(const ShadowFace& face) const;
   /// Replaces the face's backgrounds. The atlas must hold the face's map.
@@ -77,6 +79,7 @@ class ShadowCache {
     FaceContent content;
     std::uint64_t frame = 0;  ///< the newest frame whose casters the map shows
     std::vector<FaceBackground> backgrounds;
+    std::vector<CasterBox> late = {};
     bool has_planes = false;
   };
   void forget_overlapping(const AtlasSquare& square);

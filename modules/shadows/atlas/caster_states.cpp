@@ -98,6 +98,21 @@ void append_boxes(std::span<const Entity> here, std::span<const Entity> there, s
   }
 }
 
+/// Sources that come, go or change their content do not wait for a turn. The first `gone` boxes are old ones.
+void end_turns(std::vector<CasterBox>& boxes, std::size_t gone) {
+  const std::span<CasterBox> all(boxes), old = all.first(gone), now = all.subspan(gone);
+  const auto lacks = [](std::span<const CasterBox> there, const CasterBox& box) {
+    return std::ranges::none_of(there,
+                                [&](const CasterBox& one) { return one.turns > 1 && one.content == box.content; });
+  };
+  std::vector<CasterBox*> ended;
+  for (CasterBox& box : old)
+    if (box.turns > 1 && lacks(now, box)) ended.push_back(&box);
+  for (CasterBox& box : now)
+    if (box.turns > 1 && lacks(old, box)) ended.push_back(&box);
+  for (CasterBox* box : ended) box->turns = 1;
+}
+
 /// The lights with withheld casters in either, ascending.
 std::vector<Entity> lights_of(const WithheldCasters& a, const WithheldCasters& b) {
   std::vector<Entity> lights;
@@ -148,7 +163,10 @@ std::vector<CasterState> source_states(std::span<const CasterSource* const> sour
     hasher.value(source->content_hash);
     for (const dvec3& corner : {box.min, box.max})
       for (int axis = 0; axis < 3; ++axis) hasher.value(std::bit_cast<std::uint64_t>(corner[axis]));
-    states.push_back({hasher.digest(), source->moving, {box.min, box.max}, source->entity});
+    states.push_back({hasher.digest(),
+                      source->moving,
+                      {box.min, box.max, 0.0, source->turns, source->turns > 1 ? source->content_hash : 0},
+                      source->entity});
   }
   return states;
 }
@@ -183,6 +201,7 @@ CasterHistory CasterHistory::advanced(std::vector<CasterState> states, std::size
       next.since_[static_cast<std::size_t>(state - states.data())] =
           since_[static_cast<std::size_t>(equal - states_.data())];
   });
+  end_turns(next.changed_, next.gone_);
   next.states_ = std::move(states);
   next.sources_ = sources;
   next.next_withheld_ = next.withheld_ = next_withheld_;

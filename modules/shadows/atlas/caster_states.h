@@ -21,6 +21,8 @@ struct CasterBox {
   dvec3 low = dvec3(0.0);
   dvec3 high = dvec3(0.0);
   double emissive_reach_m = 0.0;  ///< Caster::emissive_reach_m
+  std::uint32_t turns = 1;        ///< CasterSource::turns
+  std::uint64_t content = 0;      ///< CasterSource::content_hash, if it takes turns
   [[nodiscard]] bool known() const { return low.x <= high.x && low.y <= high.y && low.z <= high.z; }
 };
 

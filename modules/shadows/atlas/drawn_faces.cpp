@@ -31,16 +31,41 @@ std::uint64_t salt_of(const FrameBuilder& frame, const ShadowKnobs& knobs) {
 struct Stale {
   std::vector<TexelRect> regions;  ///< none when the map is up to date
   bool has_last_map = false;       ///< the atlas holds the map of the frame before
+  std::vector<CasterBox> late;     ///< boxes inside which the map waits for its turn (CasterSource::turns)
 };
 
-Stale find_stale(const ViewMapState& kept, const ShadowFace& face, const FaceContent& content) {
+/// Divides the changed boxes into those that are drawn now and those that wait for the face's turn. The latter include
+/// boxes that have waited before. place: of the face among the faces of the frame.
+struct ChangedBoxes {
+  std::vector<CasterBox> now, late;
+};
+
+ChangedBoxes divide_by_turn(const ViewMapState& kept, const ShadowFace& face, std::size_t place,
+                            std::span<const CasterBox> changed) {
+  const std::span<const CasterBox> waited = kept.cache.late(face);
+  const FaceVolume volume = face_volume(face);
+  ChangedBoxes boxes;
+  bool waits = false;
+  for (const CasterBox& box : changed) {
+    if (box.turns > 1 && !may_see(volume, box)) continue;
+    const bool waits_here = box.turns > 1 && (kept.frame.history.frame() + place) % box.turns != 0;
+    (waits_here ? boxes.late : boxes.now).push_back(box);
+    waits = waits || waits_here;
+  }
+  std::vector<CasterBox>& others = waits ? boxes.late : boxes.now;
+  others.insert(others.end(), waited.begin(), waited.end());
+  return boxes;
+}
+
+Stale find_stale(const ViewMapState& kept, const ShadowFace& face, std::size_t place, const FaceContent& content) {
   const CasterHistory& history = kept.frame.history;
   if (kept.frame.atlas_is_empty) return {{whole_face(face)}, false};
   if (kept.cache.has_map(face, content)) return {};
   if (!kept.cache.has_map_of_frame(face, content, kept.history.frame())) return {{whole_face(face)}, false};
   const std::span<const CasterBox> changed = history.changed(face.light);
   if (changed.size() > kMostChanges) return {{whole_face(face)}, true};
-  return {covered_regions(face, changed), true};
+  ChangedBoxes boxes = divide_by_turn(kept, face, place, changed);
+  return {covered_regions(face, boxes.now), true, std::move(boxes.late)};
 }
 
 /// Hash of a background: the resting casters that this part of the face may see.
@@ -133,7 +158,7 @@ PlacedFaces place_faces(const MapInputs& inputs, ViewMapState& kept, JobExecutor
   placed.stale.resize(placed.faces.size());
   executor.parallel_for(placed.faces.size(), 8, [&](JobRange range) {
     for (std::size_t i = range.begin; i < range.end; ++i)
-      placed.stale[i] = find_stale(kept, placed.faces[i], placed.contents[i]);
+      placed.stale[i] = find_stale(kept, placed.faces[i], i, placed.contents[i]);
   });
   return placed;
 }
@@ -170,12 +195,13 @@ DrawnMaps plan_maps(const MapInputs& inputs, ViewMapState& kept, JobExecutor& ex
       ++kept.counts.cached;
       continue;
     }
+    if (!placed.stale[i].late.empty()) ++kept.counts.in_turn;
     if (placed.stale[i].regions.empty()) {
-      maps.held.push_back({key, content});
+      maps.held.push_back({key, content, placed.stale[i].late});
       ++kept.counts.cached;
       continue;
     }
-    DrawnFace& added = drawn.emplace_back(DrawnFace{face, content, {}, {}});
+    DrawnFace& added = drawn.emplace_back(DrawnFace{face, content, {}, {}, placed.stale[i].late});
     for (const TexelRect& texels : placed.stale[i].regions) {
       added.regions.push_back({texels, {}, {}});
       kept.counts.texels += texels.texels();
@@ -211,9 +237,12 @@ void commit_maps(std::span<const DrawnFace> drawn, std::span<const HeldFace> hel
     kept.history = std::move(kept.frame.history);
     kept.frame.committed = true;
   }
-  for (const HeldFace& face : held) kept.cache.keep(face.face, face.content, kept.history.frame());
+  for (const HeldFace& face : held) kept.cache.keep(face.face, face.content, kept.history.frame(), face.late);
   for (const DrawnFace& face : drawn) {
     kept.cache.set_drawn(face.face, face.content, kept.history.frame());
+    if (!face.late.empty())
+      kept.cache.keep({face.face.light, face.face.index, face.face.view}, face.content, kept.history.frame(),
+                      face.late);
     kept.cache.set_backgrounds(face.face, face.backgrounds);
   }
 }

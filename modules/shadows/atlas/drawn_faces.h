@@ -27,6 +27,7 @@ struct DrawnRegion {
   /// only.
   bool on_background = false;
   std::vector<const CasterSource*> sources = {};  ///< drawn after `draws`
+  std::vector<std::uint32_t> parts = {};          ///< CasterSourceDraw::part() of each of `sources`, or empty
 };
 
 /// One face that is drawn in this frame.
@@ -35,12 +36,14 @@ struct DrawnFace {
   FaceContent content;
   std::vector<DrawnRegion> regions;         ///< not overlapping
   std::vector<FaceBackground> backgrounds;  ///< content of the image of backgrounds for the face, after the frame
+  std::vector<CasterBox> late = {};         ///< as HeldFace::late; outside of `regions`, or drawn there as it is now
 };
 
 /// A face whose map the atlas holds, and its content in this frame.
 struct HeldFace {
   FaceKey face;
   FaceContent content;
+  std::vector<CasterBox> late = {};  ///< boxes inside which the map waits for its turn (CasterSource::turns)
 };
 
 /// All shadow-map draws of one frame.

@@ -16,6 +16,7 @@ namespace gloam {
 struct ShadowCounts {
   std::uint32_t drawn = 0;    ///< faces that were drawn
   std::uint32_t cached = 0;   ///< faces whose map was in the atlas already
+  std::uint32_t in_turn = 0;  ///< faces in which some casters wait for their turn (CasterSource::turns)
   std::uint32_t skipped = 0;  ///< faces without casters, which were only cleared
   std::uint64_t texels = 0;   ///< texels drawn in all faces and backgrounds
 };

@@ -136,6 +136,7 @@ ShadowMaps add_shadow_map_passes(FrameBuilder& frame, ShadowStates& states, View
   for (const DrawnFace& face : work->faces.faces)
     for (const DrawnRegion& region : face.regions) maps.drawn.push_back({face.face.square, region.texels});
   prepare_maps(frame, states, knobs, kSteepestSurface, *work);
+  prepare_sources(frame, {&work->backgrounds, &work->faces});
   // Rounded up, so that few different numbers of passes occur and cached frame-graph plans can be reused.
   const std::size_t batches = std::bit_ceil(work->faces.plan.batches.size());
   for (std::size_t batch = 0; batch < batches; ++batch) add_batch(frame, work, batch, maps);

@@ -60,8 +60,11 @@ class FaceRecorder {
   void record_sources(const DrawnFace& face, const DrawnRegion& region) {
     if (region.sources.empty()) return;
     const CasterProjection projection = projection_of(face.face);
-    const CasterSourceDraw draw(context_, projection, face.face.square.size, -map_.bias_units, -kSlopeBias);
-    for (const CasterSource* source : region.sources) source->record(draw);
+    for (std::size_t i = 0; i < region.sources.size(); ++i) {
+      const std::uint32_t part = region.parts.empty() ? CasterSourceDraw::kNoPart : region.parts[i];
+      region.sources[i]->record(
+          CasterSourceDraw(context_, projection, face.face.square.size, -map_.bias_units, -kSlopeBias, part));
+    }
     bound_ = {};  // sources bind pipelines and indices
   }
   void bind(gpu::PipelineHandle pipeline) {
@@ -97,6 +100,16 @@ void begin_region(gpu::CommandList& commands, const gpu::ImageView& layer, std::
                        extent.y);
 }
 
+/// The part of clip space that a rectangle of the face's texels shows.
+CasterSourcePart source_part(const ShadowFace& face, const TexelRect& texels) {
+  const vec2 begin = 2.0f * vec2(texels.begin) / static_cast<float>(face.square.size) - 1.0f;
+  const vec2 end = 2.0f * vec2(texels.end) / static_cast<float>(face.square.size) - 1.0f;
+  CasterSourcePart part{.projection = projection_of(face)};
+  part.clip = vec4(begin.x, -end.y, end.x, -begin.y);
+  if (face.tan_half > 0.0f) part.reach_m = face.far_m;
+  return part;
+}
+
 /// Whether this flag of FaceDraw is set in any draw of the plan.
 bool draws(const FacePlan& plan, bool FaceDraw::*flag) {
   for (const DrawnFace& face : plan.faces)
@@ -113,6 +126,33 @@ bool draws_cut_outs(const FacePlan& plan) {
 }
 
 }  // namespace
+
+void prepare_sources(FrameBuilder& frame, std::initializer_list<FacePlan*> plans) {
+  struct Prepared {
+    const CasterSource* source;
+    std::vector<CasterSourcePart> parts;
+    std::vector<std::uint32_t*> indices;
+  };
+  std::vector<Prepared> prepared;
+  for (FacePlan* plan : plans)
+    for (DrawnFace& face : plan->faces)
+      for (DrawnRegion& region : face.regions) {
+        region.parts.assign(region.sources.size(), CasterSourceDraw::kNoPart);
+        for (std::size_t i = 0; i < region.sources.size(); ++i) {
+          const CasterSource* source = region.sources[i];
+          if (source->prepare == nullptr) continue;
+          auto found = std::ranges::find(prepared, source, &Prepared::source);
+          if (found == prepared.end()) found = prepared.insert(found, {source, {}, {}});
+          found->parts.push_back(source_part(face.face, region.texels));
+          found->indices.push_back(&region.parts[i]);
+        }
+      }
+  for (const Prepared& one : prepared) {
+    const std::uint32_t first = one.source->prepare(frame, one.parts);
+    for (std::size_t i = 0; i < one.indices.size(); ++i)
+      *one.indices[i] = first == CasterSourceDraw::kNoPart ? first : first + static_cast<std::uint32_t>(i);
+  }
+}
 
 void declare_source_reads(PassBuilder& pass, std::initializer_list<const FacePlan*> plans) {
   std::vector<const CasterSource*> declared;

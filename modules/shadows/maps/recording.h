@@ -40,6 +40,9 @@ struct MapWork {
 void prepare_maps(FrameBuilder& frame, ShadowStates& states, const ShadowKnobs& knobs, float steepest, MapWork& work,
                   MapMips mips = MapMips::all);
 
+/// Prepares the caster sources in these plans (CasterSource::prepare), and sets DrawnRegion::parts.
+void prepare_sources(FrameBuilder& frame, std::initializer_list<FacePlan*> plans);
+
 /// Declares what the caster sources in these plans read.
 void declare_source_reads(PassBuilder& pass, std::initializer_list<const FacePlan*> plans);
 

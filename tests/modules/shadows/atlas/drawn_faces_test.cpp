@@ -244,6 +244,70 @@ TEST_F(DrawnFaces, a_source_that_stops_is_drawn_once_more_and_then_rests) {
   EXPECT_EQ(maps.backgrounds[0].regions[0].sources, Sources{&field});
 }
 
+TEST_F(DrawnFaces, a_source_that_takes_turns_is_drawn_in_every_second_frame_at_all_places_that_it_had) {
+  CasterSource& field = source(kLow, kHigh, true);
+  field.turns = 2;
+  frames(2);
+  dvec3 low = kLow, high = kHigh;
+  std::vector<dvec3> lows, highs;  // since it was drawn
+  int drawn = 0;
+  for (int i = 0; i < 6; ++i) {
+    lows.push_back(low), highs.push_back(high);
+    low.x += 0.5, high.x += 0.5;
+    field.bounds = {low, high};
+    const DrawnMaps maps = frame();
+    EXPECT_EQ(kept.counts.in_turn, maps.faces.empty() ? 1u : 0u);
+    if (maps.faces.empty()) continue;
+    ++drawn;
+    lows.push_back(low), highs.push_back(high);
+    ASSERT_EQ(maps.faces.size(), 1u);
+    for (std::size_t n = 0; n < lows.size(); ++n) {
+      const TexelRect wanted = covered_texels(faces[0], lows[n], highs[n]);
+      std::uint64_t covered = 0;
+      for (const DrawnRegion& region : maps.faces[0].regions) {
+        const TexelRect both{glm::max(region.texels.begin, wanted.begin), glm::min(region.texels.end, wanted.end)};
+        covered += both.texels();
+        EXPECT_EQ(region.sources, Sources{&field});
+      }
+      EXPECT_EQ(covered, wanted.texels()) << "place " << n << " in frame " << i;
+    }
+    lows.clear(), highs.clear();
+  }
+  EXPECT_EQ(drawn, 3);
+}
+
+TEST_F(DrawnFaces, beside_a_mesh_that_moves_a_source_waits_for_its_turn_elsewhere) {
+  CasterSource& field = source(kLow, kHigh, true);
+  field.turns = 4;
+  frames(4);
+  int whole = 0;
+  for (int i = 0; i < 8; ++i) {
+    casters[0].world_from_mesh = glm::translate(casters[0].world_from_mesh, dvec3(0.0, 0.01, 0.0));
+    casters[0].bounds_min.y += 0.01, casters[0].bounds_max.y += 0.01;
+    const DrawnMaps maps = frame();
+    ASSERT_EQ(maps.faces.size(), 1u) << i;
+    const TexelRect blades = covered_texels(faces[0], kLow, kHigh);
+    bool has_blades = false;
+    for (const DrawnRegion& region : maps.faces[0].regions) has_blades = has_blades || region.texels.contains(blades);
+    whole += has_blades ? 1 : 0;
+    EXPECT_EQ(kept.counts.in_turn, has_blades ? 0u : 1u) << i;
+  }
+  EXPECT_EQ(whole, 2);
+}
+
+TEST_F(DrawnFaces, a_source_that_stops_while_it_waits_is_drawn_once_more) {
+  CasterSource& field = source(kLow, kHigh, true);
+  field.turns = 2;
+  frames(3);
+  while (frame().faces.size() != 1) {
+  }
+  ASSERT_TRUE(frame().faces.empty()) << "it waits";
+  field.moving = false;
+  field.turns = 1;
+  ASSERT_EQ(frame().faces.size(), 1u);
+  EXPECT_TRUE(frame().faces.empty());
+}
+
 TEST_F(DrawnFaces, sources_that_no_light_reaches_cost_nothing) {
   source(dvec3(-1.0, -1.0, -12.0), dvec3(1.0, 1.0, -11.0), true);  // beyond the range
   source(dvec3(20.0, 0.0, -1.0), dvec3(21.0, 1.0, 1.0), true);     // beside both faces
