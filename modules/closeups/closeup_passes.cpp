@@ -24,6 +24,7 @@ ComputeProgram compose_program(const ShadowsOutputs& shadows, bool directional, 
                                      : (shadows.standard ? compose_local_standard_comp : compose_local_comp),
                          shadows.constants};
   program.constants.set("local_size_x", threads_a_tile(device));
+  program.constants.set_if_present("kThinFilter", 0u);  // close-up maps may lack the coarse mips that it reads
   program.constants.set(shadows.final_lists->constants);
   return program;
 }

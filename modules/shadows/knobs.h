@@ -202,6 +202,7 @@ struct ShadowKnobs {
   bool terminator = false;        ///< smooth-shaded surfaces are judged at their smooth surface
   bool subsurface_backs = false;  ///< closed bodies that light passes through are drawn without their lit side
   bool transmission = false;      ///< the scene has materials that light passes through
+  std::uint32_t thin_filter = 0;  ///< value of kThinFilter (shadows_api.glsl)
   bool early_outs = true;         ///< a filter stops as soon as the result is known; false only for measurements
 };
 

@@ -57,6 +57,17 @@ inline constexpr EnumKnob<ShadowMode> kShadowMode{
         "(deferred)",
     .default_value = ShadowMode::deferred};
 
+/// A knob of the grass module, which this module obeys. Values of kThinFilter (shadows_api.glsl).
+inline constexpr ChoiceKnob<std::uint32_t> kGrassShadowFilter{
+    .name = "grass.shadow_filter",
+    .meaning =
+        "filter of the shadows that fall on blades of grass (shadows.filter=chs): that of all surfaces (full), or in "
+        "one mip of the receiver's face, without the estimate of near blockers (one_mip)",
+    .choices = {{"full", 0}, {"one_mip", 1}},
+    .default_value = 1,
+    .exact = 0,
+    .only_with = "shadows.filter=chs"};
+
 /// A square of texels in an atlas. Its origin is a multiple of its size.
 struct AtlasSquare {
   uvec2 origin = uvec2(0);  ///< texels from the upper left corner of mip 0

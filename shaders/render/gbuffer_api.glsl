@@ -5,7 +5,8 @@
 
 // Layout of the geometry buffer:
 //   base color  rgba8_unorm  square roots of rgb, a = subsurface 0 or 1, and between them the spread of normals
-//               (in dark colours square roots are as precise as sRGB; they take one instruction)
+//               (in dark colours square roots are as precise as sRGB; they take one instruction). Thin surfaces have
+//               128/255: subsurface, no spread (is_thin)
 //   normals     rg32_uint    octahedral shading normal, octahedral face normal
 //   material    rgba8_unorm  roughness, metallic, occlusion, reflectivity
 //   emissive    rgba16_float cd/m² · ViewConstants::light_scale, a = square root of the extinction length in metres of
@@ -15,7 +16,8 @@
 //   motion      rg32f        pixels since the previous frame (motion_api.glsl); only in frames that need it
 //
 // A fragment shader of PassPhase::geometry writes locations 0 to 3, and location 4 if the frame has motion:
-//   layout(location = 0) out vec4 out_base_color;   encode_base_color(base_color, subsurface), or with spread
+//   layout(location = 0) out vec4 out_base_color;   encode_base_color(base_color, subsurface), or with spread;
+//                                                   encode_thin_color(base_color)
 //   layout(location = 1) out uvec4 out_normals;     encode_normals(normal, face_normal), both towards the viewer
 //   layout(location = 2) out vec4 out_material;     vec4(roughness, metallic, occlusion, reflectivity), each 0…1
 //   layout(location = 3) out vec4 out_emissive;     vec4(emissive, 0.0), emissive in cd/m² · light_scale; alpha above 0
@@ -27,6 +29,7 @@
 struct GBufferTexel {
   vec3 base_color;
   bool subsurface;
+  bool thin;            // a blade of grass or the like; also subsurface
   float normal_spread;  // square of a width of slopes (normal_spread_in_pixel), 0…0.18
   vec3 normal;
   vec3 face_normal;
@@ -50,9 +53,17 @@ vec4 encode_base_color(vec3 base_color, bool subsurface, float normal_spread) {
 
 vec4 encode_base_color(vec3 base_color, bool subsurface) { return encode_base_color(base_color, subsurface, 0.0); }
 
+// Blades of grass and the like: about a pixel wide, subsurface, many to a tile. Shadows on them may have a filter of
+// their own (kThinFilter in shadows_api.glsl). The code is one that no spread has.
+const float kThinCode = 128.0;
+vec4 encode_thin_color(vec3 base_color) { return vec4(sqrt(max(base_color, vec3(0.0))), kThinCode / 255.0); }
+bool is_thin(float alpha) { return abs(255.0 * alpha - kThinCode) < 0.5; }
+
 float decode_normal_spread(float alpha) {
   float code = 255.0 * min(alpha, 1.0 - alpha);
-  return code < 0.5 ? 0.0 : kGreatestSpread * exp2((code - kSpreadSteps) * (kSpreadOctaves / kSpreadSteps));
+  return code < 0.5 || code > kSpreadSteps + 0.5
+             ? 0.0
+             : kGreatestSpread * exp2((code - kSpreadSteps) * (kSpreadOctaves / kSpreadSteps));
 }
 
 // Normals of any length above 0, in world axes.
@@ -64,6 +75,7 @@ GBufferTexel decode_gbuffer(vec4 base_color, uvec2 normals, vec4 material) {
   GBufferTexel g;
   g.base_color = base_color.rgb * base_color.rgb;
   g.subsurface = base_color.a > 0.5;
+  g.thin = is_thin(base_color.a);
   g.normal_spread = decode_normal_spread(base_color.a);
   g.normal = unpack_normal(normals.x);
   g.face_normal = unpack_normal(normals.y);

@@ -46,6 +46,10 @@ shared uint filtered_count;
 shared uint near_pixels[GLOAM_SLOT_PIXELS];  // near_count pixels with near blockers; from bit 8 on, their sectors
 shared uint near_count;
 shared uint behind_count;
+// With kThinFilter: the pixels, other_count of them; from the end back, those of thin surfaces, thin_count of them.
+shared uint listed[GLOAM_SLOT_PIXELS];
+shared uint other_count;
+shared uint thin_count;
 shared uint found;  // combined flags of all pixels
 // Whether the pixels of a thread fill one or two whole words of the slot. The thread then builds these in own_words;
 // otherwise several threads share a word.
@@ -98,7 +102,7 @@ void keep_own_words(uint lane) {
 
 void start_pixels(uint lane) {
   for (uint i = lane; i < 16u; i += kThreads) packed_words[i] = 0u;
-  if (lane == 0u) found = filtered_count = near_count = behind_count = 0u;
+  if (lane == 0u) found = filtered_count = near_count = behind_count = other_count = thin_count = 0u;
 }
 
 #endif

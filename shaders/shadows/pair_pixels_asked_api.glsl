@@ -12,28 +12,75 @@ PixelOfPair pixel_of_pair(LightOfPair light, uvec2 pixel) {
   float depth = texelFetch(depth_image, at, 0).r;
   vec3 position = relative_position(view, vec2(at), max(depth, 1e-30));
   uvec2 normals = texelFetch(normal_image, at, 0).xy;
-  bool subsurface = texelFetch(base_color_image, at, 0).a > 0.5;
+  float alpha = texelFetch(base_color_image, at, 0).a;
   PixelOfPair p;
   float cosine = light_cosine(light, position, unpack_normal(normals.x));
   p.extinction_m = 0.0;
   if (kTransmission != 0u && cosine < 0.0) p.extinction_m = decode_extinction(texelFetch(emissive_image, at, 0).a);
   p.matters = depth > 0.0 && all(lessThan(pixel, view.size)) && (cosine > 0.0 || p.extinction_m > 0.0);
-  p.point = shadow_point(light, pixel_receiver(position, unpack_normal(normals.y), subsurface, at));
+  ShadowReceiver receiver = pixel_receiver(position, unpack_normal(normals.y), alpha > 0.5, at);
+  receiver.thin = kThinFilter != 0u && is_thin(alpha);
+  p.point = shadow_point(light, receiver);
   p.point.live = p.point.live && p.matters;
   return p;
 }
 
 uvec2 pixel_at(uvec2 tile, uint pixel) { return tile * uint(GLOAM_SHADOW_TILE) + uvec2(pixel & 7u, pixel >> 3); }
 
+// With a filter for thin surfaces: lists the tile's pixels, those of thin surfaces apart. Each thread lists its own.
+void list_thin_pixels(uvec2 tile, uint lane) {
+  uint thin = 0u, i = 0u;
+  do {
+    ivec2 at = ivec2(min(pixel_at(tile, lane * kPixels + i), view.size - 1u));
+    thin |= is_thin(texelFetch(base_color_image, at, 0).a) ? 1u << i : 0u;
+  } while (++i < kPixels);
+  uint thin_at = atomicAdd(thin_count, uint(bitCount(thin)));
+  uint other_at = atomicAdd(other_count, kPixels - uint(bitCount(thin)));
+  i = 0u;
+  do {
+    bool is_one = (thin >> i & 1u) != 0u;
+    listed[is_one ? uint(GLOAM_SLOT_PIXELS) - 1u - thin_at : other_at] = lane * kPixels + i;
+    thin_at += is_one ? 1u : 0u;
+    other_at += is_one ? 0u : 1u;
+  } while (++i < kPixels);
+  barrier();
+}
+
+// Evaluates the pixels of thin surfaces.
+void ask_thin_pixels(LightOfPair light, uvec2 tile, uint lane) {
+  uint count = thin_count, i = lane, steps;
+  if (i < count) do {
+      uint pixel = listed[uint(GLOAM_SLOT_PIXELS) - 1u - i];
+      PixelOfPair p = pixel_of_pair(light, pixel_at(tile, pixel));
+      float visibility = 1.0;
+      if (p.point.live) do {
+          visibility = thin_visibility(p.point);
+        } while (never(p.point));
+      uint says = keep_visibility(pixel, p, visibility, steps);
+      atomicOr(found, says);  // in the loop, not once after it: see never()
+      pack_steps(pixel, steps);
+      i += kThreads;
+    } while (i < count);
+}
+
 // Evaluates the tile's pixels. First each thread evaluates its own pixels as far as possible without the filter; then
 // the pixels that need the filter are distributed over all threads, then those with near blockers, and then those that
 // take light from behind. A loop each: within the first, the rare pixels of the others would cost all pixels time.
+// Pixels of thin surfaces with a filter of their own are evaluated apart; the others are then distributed over all
+// threads in the first loop.
 void ask_pixels(LightOfPair light, uvec2 tile, uint lane) {
+  const bool apart = kThinFilter != 0u && kFilter == 3u;
+  if (apart) list_thin_pixels(tile, lane);
   uint some = 0u, i = 0u, steps;
+  uint others = apart ? other_count : uint(GLOAM_SLOT_PIXELS);
+  uint turns = apart ? max((others + kThreads - 1u) / kThreads, 1u) : kPixels;
   do {
-    uint pixel = lane * kPixels + i;
+    uint place = i * kThreads + lane, pixel = apart ? listed[min(place, max(others, 1u) - 1u)] : lane * kPixels + i;
     PixelOfPair p = pixel_of_pair(light, pixel_at(tile, pixel));
     bool known = true;
+    bool asked = !apart || place < others;
+    p.matters = p.matters && asked;
+    p.point.live = p.point.live && asked;
     float visibility, width = 0.0;
     uint sectors = 0u;
     bool live = p.point.live, behind = kTransmission != 0u && p.matters && p.extinction_m > 0.0;
@@ -43,21 +90,25 @@ void ask_pixels(LightOfPair light, uvec2 tile, uint lane) {
     else
       visibility = unquantised_visibility(p.point);
     p.point.live = live;
-    widths[pixel] = width;
+    if (asked) widths[pixel] = width;
     uint says = keep_visibility(pixel, p, visibility, steps);
-    if (behind) {
+    if (asked && behind) {
       filtered[uint(GLOAM_SLOT_PIXELS) - 1u - atomicAdd(behind_count, 1u)] = pixel;
-    } else if (known) {
-      some |= says;
-      pack_own_steps(pixel, steps);
-    } else if (width < 0.0) {
+    } else if (asked && !known && width < 0.0) {
       near_pixels[atomicAdd(near_count, 1u)] = pixel | sectors << 8;
-    } else {
+    } else if (asked && !known) {
       filtered[atomicAdd(filtered_count, 1u)] = pixel;
+    } else if (asked) {
+      some |= says;
+      if (apart)
+        pack_steps(pixel, steps);
+      else
+        pack_own_steps(pixel, steps);
     }
-  } while (++i < kPixels);
-  keep_own_words(lane);
+  } while (++i < turns);
+  if (!apart) keep_own_words(lane);
   if (some != 0u) atomicOr(found, some);
+  if (apart) ask_thin_pixels(light, tile, lane);
   barrier();
   uint count = kFilter == 3u ? filtered_count : 0u;
   i = lane;

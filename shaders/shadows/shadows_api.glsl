@@ -50,6 +50,8 @@ layout(constant_id = 29) const int kNearDirections = 16;  // directions from the
 layout(constant_id = 22) const uint kTerminator = 0u;
 // Bias of receivers with a subsurface material, in biases of others.
 layout(constant_id = 24) const uint kSubsurfaceBias = 4u;
+// Filter of thin surfaces, e.g. blades of grass, with kFilter 3: 0 as others, 1 thin_visibility()
+layout(constant_id = 29) const uint kThinFilter = 0u;
 // A pipeline may be restricted to some kinds of lights. Software devices would otherwise execute the code of all kinds
 // for every light. kKinds restricts the kinds when the pipeline is created. Shaders for fixed kinds
 // define GLOAM_SHADOWS_KINDS, which shortens their code as well. Shaders that define GLOAM_SHADOWS_IN_FACE promise that
@@ -69,11 +71,12 @@ struct ShadowReceiver {
   vec3 face_normal;  // unit, on the visible side
   bool subsurface;
   bool smooth_surface;  // moved to its smooth surface (pixel_receiver)
+  bool thin;            // is_thin() of the geometry buffer; set after pixel_receiver(), where kThinFilter matters
 };
 
 // A receiver that is judged where it is.
 ShadowReceiver drawn_receiver(vec3 position, vec3 face_normal, bool subsurface) {
-  return ShadowReceiver(position, face_normal, subsurface, false);
+  return ShadowReceiver(position, face_normal, subsurface, false, false);
 }
 
 // Sine of the angle between light ray and surface below which the receiver plane gets no steeper. The smooth surface of
@@ -96,7 +99,7 @@ SmoothSurface fetch_smooth_surface(ivec2 pixel) {
 ShadowReceiver on_smooth_surface(ShadowReceiver r, SmoothSurface s) {
   bool moved = s.exists && !r.subsurface;
   return ShadowReceiver(moved ? r.position + s.offset : r.position, moved ? s.normal : r.face_normal, r.subsurface,
-                        moved);
+                        moved, r.thin);
 }
 
 // The receiver for the surface of the geometry buffer under a pixel, which has this position and face normal.
@@ -116,6 +119,7 @@ vec2 shadow_texel_size() { return vec2(1.0 / 1.5, 1.0) / shadow_block.atlas_size
 #else
 #include "shaders/shadows/filter/fixed_filters.glsl"
 #endif
+#include "shaders/shadows/filter/thin_surfaces.glsl"
 #include "shaders/shadows/filter/transmission.glsl"
 
 // The visibility as a slot stores it.
@@ -134,12 +138,12 @@ float traced_visibility(float layer) {
 
 float unquantised_visibility(ShadowPoint p) {
 #ifdef GLOAM_SHADOWS_STANDARD
-  float visibility = chs_visibility(p);
+  float visibility = chs_or_thin_visibility(p);
 #else
   float visibility = kFilter == 0u   ? hard_visibility(p)
                      : kFilter == 1u ? pcf_visibility(p)
                      : kFilter == 2u ? pcss_visibility(p)
-                                     : chs_visibility(p);
+                                     : chs_or_thin_visibility(p);
 #endif
   return visibility;
 }

@@ -111,6 +111,7 @@ void main() {
   set_receiver(position, g.face_normal, g.subsurface);
 #ifdef GLOAM_SHADOWS_BINDING
   receiver = pixel_receiver(position, g.face_normal, g.subsurface, pixel);
+  receiver.thin = g.thin;
 #endif
   light += directional_lights(p, uvec2(pixel));
   light += local_lights(p, uvec2(pixel));

@@ -67,8 +67,9 @@ void main() {
   vec3 position = relative_position(view, gl_FragCoord.xy - 0.5, max(depth, 1e-30));
   uvec2 normals = texelFetch(normal_image, pixel, 0).xy;
   vec3 normal = unpack_normal(normals.x);
-  ShadowReceiver r =
-      pixel_receiver(position, unpack_normal(normals.y), texelFetch(base_color_image, pixel, 0).a > 0.5, pixel);
+  float alpha = texelFetch(base_color_image, pixel, 0).a;
+  ShadowReceiver r = pixel_receiver(position, unpack_normal(normals.y), alpha > 0.5, pixel);
+  r.thin = is_thin(alpha);
   float extinction_m = 0.0;
   if (kTransmission != 0u) extinction_m = decode_extinction(texelFetch(emissive_image, pixel, 0).a);
   vec2 sum = vec2(0.0);

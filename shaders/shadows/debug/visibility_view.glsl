@@ -47,8 +47,9 @@ void main() {
   float depth = texelFetch(depth_image, pixel, 0).r;
   vec3 position = relative_position(view, gl_FragCoord.xy - 0.5, max(depth, 1e-30));
   uvec2 normals = texelFetch(normal_image, pixel, 0).xy;
-  ShadowReceiver r =
-      pixel_receiver(position, unpack_normal(normals.y), texelFetch(base_color_image, pixel, 0).a > 0.5, pixel);
+  float alpha = texelFetch(base_color_image, pixel, 0).a;
+  ShadowReceiver r = pixel_receiver(position, unpack_normal(normals.y), alpha > 0.5, pixel);
+  r.thin = is_thin(alpha);
   bool directional = shown.directional != 0u;
   LocalLight local = fetch_light(light_texels, directional ? 0u : shown.light);
   local.color = vec3(1.0);  // only the light's reach matters, not its strength

@@ -170,26 +170,33 @@ float nearest_in_cone(ShadowPoint p, float width) {
 // near to the light that it alone would make the region wide.
 int cone_steps(bool orthographic, float of_face, float depth) { return !orthographic && of_face > 4.0 * depth ? 2 : 1; }
 
-// Finds the search region from coarse to fine: the nearest depth in a square that is too large gives a smaller square
-// that still holds all blockers.
-SearchRegion find_region(ShadowPoint p) {
+// Finds the search region in the receiver's face from coarse to fine: the nearest depth in a square that is too large
+// gives a smaller square that still holds all blockers.
+SearchRegion find_region_in_face(ShadowPoint p) {
   int last = floor_log2(p.size) - GLOAM_SHADOW_PYRAMID_MIP - 1;
+  SearchRegion region;
+  float of_face = gather_nearest(pyramid_corner(p, last));
+  region.width = penumbra_width(p, of_face);
+  region.nearest = gather_nearest(pyramid_corner(p, pyramid_level(region.width, last)));
+  region.width = penumbra_width(p, region.nearest);
+  int step = 0, steps = cone_steps(p.orthographic, of_face, p.depth);
+  if (region.nearest > p.threshold) do {
+      region.nearest = nearest_in_cone(p, region.width);
+      region.width = min(region.width, penumbra_width(p, region.nearest));
+    } while (++step < steps);
+  region.farthest = gather_farthest(pyramid_corner(p, pyramid_level(region.width, last)));
+  return region;
+}
+
+// The same, in all faces of a cube that the region reaches.
+SearchRegion find_region(ShadowPoint p) {
   bool across = false;
   SearchRegion region = SearchRegion(p.size, 0.0, 0.0);
 #ifdef GLOAM_SHADOWS_CROSSING
   if ((kKinds & GLOAM_SHADOWS_CUBES) != 0u) region = find_region_of_cube(p, across);
 #endif
   if (!across) do {
-      float of_face = gather_nearest(pyramid_corner(p, last));
-      region.width = penumbra_width(p, of_face);
-      region.nearest = gather_nearest(pyramid_corner(p, pyramid_level(region.width, last)));
-      region.width = penumbra_width(p, region.nearest);
-      int step = 0, steps = cone_steps(p.orthographic, of_face, p.depth);
-      if (region.nearest > p.threshold) do {
-          region.nearest = nearest_in_cone(p, region.width);
-          region.width = min(region.width, penumbra_width(p, region.nearest));
-        } while (++step < steps);
-      region.farthest = gather_farthest(pyramid_corner(p, pyramid_level(region.width, last)));
+      region = find_region_in_face(p);
     } while (never(p));
   return region;
 }

@@ -43,6 +43,7 @@ struct ShadowPoint {
   float tan_half;  // tangent of half the face's field of view, for cubes
   float horizon;   // share of the emitter above the receiver plane; the part below gives no light
   float metres;    // metres_between(); set only with kTransmission
+  bool thin;       // ShadowReceiver::thin
 };
 
 // A face's square at one mip, in texels of the atlas image.
@@ -121,7 +122,7 @@ void set_threshold(inout ShadowPoint p, float facing_sine, float emitter_sine, f
 }
 
 ShadowPoint no_shadow_point() {
-  return ShadowPoint(vec2(0.0), 16.0, vec2(8.0), 1.0, 1.0, vec2(0.0), 1.0, 0.0, false, false, -1, 1.0, 1.0, 1.0);
+  return ShadowPoint(vec2(0.0), 16.0, vec2(8.0), 1.0, 1.0, vec2(0.0), 1.0, 0.0, false, false, -1, 1.0, 1.0, 1.0, false);
 }
 
 // Axes of a cube in the world, as columns.
@@ -219,6 +220,7 @@ ShadowPoint local_shadow_point(LocalShadow l, ShadowReceiver r) {
   vec2 tangent = local.xy / z;
   float texel = 2.0 * right.w / first.w;  // tangent per texel
   p.origin = origin_of_face(max(p.face, 0));
+  p.thin = r.thin;
   p.size = first.w;
   p.tan_half = right.w;
   precise vec2 at = vec2(tangent.x, -tangent.y) / texel + 0.5 * first.w;
@@ -274,6 +276,7 @@ SunReceiver sun_receiver(vec3 light_direction, float penumbra_m_per_m, ShadowRec
   SunReceiver s = SunReceiver(no_shadow_point(), vec4(r.position, 1.0), r.face_normal,
                               dot(r.face_normal, light_direction), least_sine(r), max(penumbra_m_per_m, 0.0), 0.0);
   s.point.orthographic = true;
+  s.point.thin = r.thin;
   return s;
 }
 
