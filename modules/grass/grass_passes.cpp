@@ -9,11 +9,14 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/hash.h"
 #include "engine/math/finite.h"
 #include "engine/render/sort/radix_sort.h"
 #include "engine/render/worlds/world_id.h"
 #include "engine/scene/units.h"
 #include "modules/grass/drawing/draw_blades_passes.h"
+#include "modules/grass/drawing/part_casters.h"
+#include "modules/grass/drawing/still_air.h"
 #include "modules/grass/drawing/textures.h"
 #include "modules/grass/lod/detail.h"
 #include "modules/grass/lod/sort_blades_passes.h"
@@ -149,6 +152,13 @@ WorldBox casting_box(const GrassField& field, std::span<const VisiblePatch> visi
   return box;
 }
 
+/// Blades of the patches nearer than this.
+std::uint64_t blades_within(const GrassField& field, std::span<const VisiblePatch> visible, float distance_m) {
+  std::uint64_t blades = 0;
+  for (const VisiblePatch& one : visible) blades += one.nearest_m <= distance_m ? field.patches[one.patch].blades : 0;
+  return blades;
+}
+
 }  // namespace
 
 void announce_grass(FrameBuilder& frame) {
@@ -156,10 +166,19 @@ void announce_grass(FrameBuilder& frame) {
   if (visible.patches.empty() || !blade_pipelines_ready(frame)) return;
   const auto grass = std::make_shared<GrassFrame>();
   frame.put(GrassOnBoard(grass));
-  const float cast_distance_m = grass_knobs(frame.knobs()).cast_distance_m;
-  const WorldBox box = casting_box(frame.world().resource<GrassField>(), visible.patches, cast_distance_m,
+  const GrassKnobs knobs = grass_knobs(frame.knobs());
+  const WorldBox box = casting_box(frame.world().resource<GrassField>(), visible.patches, knobs.cast_distance_m,
                                    metres_per_unit(frame.world()));
-  if (visible.cast && box.known()) add_blade_casters(frame, grass, box);
+  if (visible.cast && box.known()) {
+    const std::uint64_t inputs = rest_inputs(frame, visible);
+    const bool rest = casters_rest(frame.world().try_view_resource<GrassRest>(frame.view().id), inputs);
+    const GrassField& field = frame.world().resource<GrassField>();
+    const std::uint32_t turns = frame.view().camera_cut() ? 1 : knobs.shadow_turns;
+    const std::uint64_t content = Hasher().value(frame.knobs().version()).value(field.version).digest();
+    const float step_m = visible.range_m / 255.0f;  // distances are rounded down to such steps
+    const std::uint64_t most = blades_within(field, visible.patches, knobs.cast_distance_m + 2.0f * step_m);
+    add_blade_casters(frame, grass, {box, turns, content, most, rest ? inputs : 0});
+  }
 }
 
 void add_grass_passes(FrameBuilder& frame, GrassWorlds& worlds) {
@@ -217,7 +236,9 @@ void list_grass_pipelines(const GrassKnobs& knobs, bool threads_in_turn, bool te
   add(grass_pose_program());
   for (const ComputeProgram& program : radix_sort_programs(threads_in_turn, true)) add(program);
   list_blade_pipelines({.textured = textured}, list);
-  if (knobs.cast_distance_m > 0.0f) list.push_back(caster_pipeline_desc(blade_caster_program(), "grass"));
+  if (knobs.cast_distance_m <= 0.0f) return;
+  list.push_back(caster_pipeline_desc(blade_caster_program(), "grass"));
+  add(grass_part_casters_program());
 }
 
 }  // namespace gloam

@@ -85,6 +85,16 @@ inline constexpr ChoiceKnob<std::uint32_t> kGrassCasters{
     .default_value = 4,
     .exact = 1,
     .only_with = "shadows.mode=monolithic|deferred"};
+inline constexpr ChoiceKnob<std::uint32_t> kGrassShadowTurns{
+    .name = "grass.shadow_turns",
+    .meaning =
+        "frames between updates of the blades in a shadow map: 1 is every frame. The maps take turns; where something "
+        "else moves in a map, its blades are updated with it",
+    .choices = {{"1", 1}, {"2", 2}, {"4", 4}},
+    .default_value = 2,
+    .exact = 1,
+    .unit = "frames",
+    .only_with = "shadows.mode=monolithic|deferred"};
 inline constexpr ChoiceKnob<bool> kGrassAllSegments{
     .name = "grass.segments",
     .meaning = "segments of a blade: as many as its size in the picture needs (distance), or 15 (full)",
@@ -121,6 +131,7 @@ struct GrassKnobs {
   std::uint32_t threshold = 254;        ///< greatest key that is drawn
   float cast_distance_m = 6.0f;         ///< blades nearer than this cast shadows
   std::uint32_t cast_every = 4;         ///< of so many near blades one casts shadows, as many times as wide
+  std::uint32_t shadow_turns = 2;       ///< CasterSource::turns of blades
   SimulationThreads threads = SimulationThreads::device;
   bool readback = false;      ///< the CPU sizes the simulation's dispatch by an earlier frame's count
   bool far_steps = true;      ///< blades that are small in the picture run two or four steps at once

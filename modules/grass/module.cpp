@@ -22,6 +22,7 @@
 #include "modules/grass/components.h"
 #include "modules/grass/debug/lod_view.h"
 #include "modules/grass/debug/pick.h"
+#include "modules/grass/drawing/still_air.h"
 #include "modules/grass/drawing/textures.h"
 #include "modules/grass/field/metres.h"
 #include "modules/grass/grass_passes.h"
@@ -40,6 +41,7 @@ namespace {
 
 constexpr const char* kDrawsResult = "draws";
 constexpr const char* kDispatchResult = "dispatch";
+constexpr const char* kCastingResult = "casting";
 
 /// Blades are about as thin as a texel of the sun's maps: the texels begin at a place of the field, where it was
 /// planted.
@@ -124,6 +126,8 @@ std::vector<ReferenceInfo> grass_references() {
     drawn.drawn_with = {override_of(kGrassLodPixels, 0.0), override_of(kGrassThreshold, 254u),
                         override_of(kGrassAllSegments, true)};
   }
+  // Rays meet no blades, so this judges what other things throw on them.
+  references.push_back(traced_shadows(std::string(kGrassShadowFilter.name)));
   return references;
 }
 
@@ -225,13 +229,21 @@ class GrassModule final : public Module {
     if (phase != PassPhase::geometry || !frame.status().ok()) return;
     frame.keep_result("grass", kDrawsResult, (*grass)->sorted.draws);
     frame.keep_result("grass", kDispatchResult, (*grass)->dispatch);
+    const auto& visible = frame.world().view_resource<VisiblePatches>(frame.view().id);
+    if (visible.cast) frame.keep_result("grass", kCastingResult, (*grass)->drawn.casting, rest_note(frame, visible));
   }
   void take_result(World& world, ViewId view, std::string_view name, const FrameResult& result) const override {
     if (name == kDispatchResult)
       world.set_view_resource(view, GrassFeedback{result.value<shaders::GrassDispatch>().masters});
+    if (name != kCastingResult) return;
+    const auto* rest = world.try_view_resource<GrassRest>(view);
+    world.set_view_resource(
+        view, counted_rest(rest == nullptr ? GrassRest{} : *rest, std::any_cast<const RestNote&>(result.note),
+                           result.value<shaders::GrassCasting>().moved));
   }
   void result_counters(std::string_view name, const FrameResult& result, CounterSink& sink) const override {
     if (name == kDrawsResult) sink.count("grass.live", result.value<shaders::GrassDraws>().live);
+    if (name == kCastingResult) sink.count("grass.casters", result.value<shaders::GrassCasting>().count);
     if (name == kDispatchResult) sink.count("grass.masters_simulated", result.value<shaders::GrassDispatch>().masters);
   }
   void counters(const World& world, const RenderView& view, CounterSink& sink) const override {

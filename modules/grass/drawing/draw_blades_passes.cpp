@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/render/declare/kept_indices.h"
+#include "modules/grass/drawing/part_casters.h"
 #include "modules/grass/drawing/textures.h"
 #include "modules/grass/lod/detail.h"
 #include "shaders/grass/drawing/pose_shared.h"
@@ -119,20 +120,31 @@ DrawnBlades add_blade_pass(FrameBuilder& frame, const GrassInputs& inputs, const
   return blades;
 }
 
-void add_blade_casters(FrameBuilder& frame, std::shared_ptr<const GrassFrame> grass, const WorldBox& bounds) {
+void add_blade_casters(FrameBuilder& frame, std::shared_ptr<const GrassFrame> grass, const CastingBlades& casting) {
   const auto pipeline = frame.services().pipelines.get(caster_pipeline_desc(blade_caster_program(), frame.module()));
   if (!frame.check(pipeline)) return;
   CasterSource source;
-  source.bounds = bounds;
-  source.moving = true;
-  source.declare_reads = [grass](PassBuilder& pass) {
+  source.bounds = casting.bounds;
+  source.moving = casting.rest == 0;
+  source.content_hash = source.moving ? casting.content : casting.rest;
+  source.turns = source.moving ? casting.turns : 1;
+  const auto lists = std::make_shared<std::vector<PartLists>>();
+  source.prepare = [grass, lists, most = casting.most](FrameBuilder& later, std::span<const CasterSourcePart> parts) {
+    return add_part_lists(later, grass->drawn, most, parts, *lists);
+  };
+  source.declare_reads = [grass, lists](PassBuilder& pass) {
     const DrawnBlades& blades = grass->drawn;
+    for (const PartLists& one : *lists) {
+      pass.read(one.casting, gpu::Access::vertex_read);
+      pass.read(one.casting, gpu::Access::indirect_read);
+      pass.read(one.casters, gpu::Access::vertex_read);
+    }
     for (const BufferRef buffer : {blades.poses, blades.draws, blades.knots, blades.casting, blades.casters})
       pass.read(buffer, gpu::Access::vertex_read);
     pass.read(blades.casting, gpu::Access::indirect_read);
     pass.read(blades.indices, gpu::Access::vertex_input);
   };
-  source.record = [grass, pipeline = *pipeline,
+  source.record = [grass, lists, pipeline = *pipeline,
                    world_from_relative =
                        glm::translate(dmat4(1.0), frame.view().position)](const CasterSourceDraw& draw) {
     PassContext& context = draw.context();
@@ -140,14 +152,20 @@ void add_blade_casters(FrameBuilder& frame, std::shared_ptr<const GrassFrame> gr
     const auto bound = [&](std::uint32_t binding, BufferRef buffer) {
       return gpu::Binding{binding, gpu::Binding::BufferRange{context.buffer(buffer)}};
     };
+    gpu::Binding::BufferRange counts{context.buffer(blades.casting)}, casters{context.buffer(blades.casters)};
+    if (const PartLists* part = find_part(*lists, draw.part())) {
+      const std::uint64_t at = draw.part() - part->first, bytes = std::uint64_t{part->room} * sizeof(std::uint32_t);
+      counts = {context.buffer(part->casting), at * PartLists::kPartBytes, sizeof(shaders::GrassCasting)};
+      casters = {context.buffer(part->casters), at * bytes, bytes};
+    }
     const gpu::Binding bindings[] = {bound(1, blades.poses), bound(2, blades.draws), bound(3, blades.knots),
-                                     bound(4, blades.casting), bound(5, blades.casters)};
+                                     gpu::Binding{4, counts}, gpu::Binding{5, casters}};
     gpu::CommandList& commands = context.commands();
     draw.bind_pipeline(pipeline);
     commands.bind(bindings);
     commands.push(draw.projection().constants(world_from_relative));
     commands.bind_indices(context.buffer(blades.indices), 0);
-    commands.draw_indexed_indirect(context.buffer(blades.casting), offsetof(shaders::GrassCasting, draw), 1);
+    commands.draw_indexed_indirect(counts.buffer, counts.offset + offsetof(shaders::GrassCasting, draw), 1);
   };
   frame.add_caster_source(std::move(source));
 }

@@ -36,8 +36,16 @@ void list_blade_pipelines(const BladeVersion& version, PipelineList& list);
 /// Binds all that blade_shape.glsl reads.
 void bind_blades(ShaderPass& pass, const DrawnBlades& blades);
 
-/// Adds the blades near the camera as a caster of shadows, in PassPhase::announce. `grass` is set later in the frame,
-/// before shadow maps are drawn. bounds: of those blades.
-void add_blade_casters(FrameBuilder& frame, std::shared_ptr<const GrassFrame> grass, const WorldBox& bounds);
+/// The blades near the camera that cast shadows.
+struct CastingBlades {
+  WorldBox bounds;
+  std::uint32_t turns = 1;    ///< CasterSource::turns
+  std::uint64_t content = 0;  ///< while they move: of what they are besides their movement
+  std::uint64_t most = 0;     ///< blades of the patches that they are of
+  std::uint64_t rest = 0;     ///< rest_inputs() if all of them rest; 0: they may move
+};
+/// Adds them as a caster of shadows, in PassPhase::announce. `grass` is set later in the frame, before shadow maps are
+/// drawn.
+void add_blade_casters(FrameBuilder& frame, std::shared_ptr<const GrassFrame> grass, const CastingBlades& casting);
 
 }  // namespace gloam

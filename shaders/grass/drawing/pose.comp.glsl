@@ -5,6 +5,7 @@
 #include "shaders/grass/drawing/pose_shared.h"
 #include "shaders/grass/lod/lod_api.glsl"
 #include "shaders/grass/simulation/slave_api.glsl"
+#include "shaders/grass/way_api.glsl"
 
 // Poses of the live blades, in sorted order, and the list of those that cast shadows. One thread per blade.
 
@@ -33,6 +34,15 @@ mat3 turn_of(GrassStem master, GrassStem blade, uint slot, uint first_knot, uint
   return slave_turn(master, blade, slot, tip_at - master.root, grass_rest(master, types[master_type].stem[tip]), speed);
 }
 
+// Whether a master has moved in its last steps.
+bool has_moved(uint first_knot) {
+  const uint tip = uint(GLOAM_GRASS_KNOTS) - 1u;
+  vec3 sum = vec3(0.0);
+  for (uint k = tip; k >= 5u; k -= 5u)
+    sum += abs(unpack_way(vec2(knots[first_knot + k].w, previous_knots[first_knot + k].w)));
+  return sum != vec3(0.0);
+}
+
 void main() {
   uint i = gl_GlobalInvocationID.x;
   if (i >= draws.live) return;
@@ -51,7 +61,8 @@ void main() {
   float share = grass_share(lod, blade.width_m, distance_m);
   float factor = grass_width_factor(lod, share, grass_rank(packed_blade), distance_m, row.max_distance_m);
   // Knots that no step has written yet are not drawn.
-  factor = stamps[row.first_place + master_slot] == GLOAM_GRASS_NO_STEP ? 0.0 : factor;
+  bool fresh = stamps[row.first_place + master_slot] == GLOAM_GRASS_NO_STEP;
+  factor = fresh ? 0.0 : factor;
   for (int i = 0; i < 3; ++i) turn[i] = grass_turned(row.turn, turn[i]);
   vec3 moved = row.origin + root - turn * master.root;
   vec3 side = normalize(turn * cross(master.normal, master.forward));
@@ -74,5 +85,7 @@ void main() {
     uint place = atomicAdd(casting.count, 1u);
     casters[place] = i | (few ? GLOAM_GRASS_NOT_WIDER : 0u);
     atomicMax(casting.draw.instances, place / GLOAM_GRASS_DRAW_BLADES + 1u);
+    atomicMax(casting.groups.x, place / 64u + 1u);
+    if (casting.moved == 0u && (fresh || has_moved(first_knot))) atomicOr(casting.moved, 1u);
   }
 }

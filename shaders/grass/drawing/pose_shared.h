@@ -20,6 +20,12 @@ struct GrassPose {
   vec3 carried;     // way of the root since the frame before, because the ground has moved
 };
 
+/// A part of a shadow map's face: blades whose bounding sphere is outside of any plane cast nothing into it.
+struct GrassCasterPart {
+  vec4 planes[5];  // camera-relative, in units: inside is dot(xyz, p) + w >= 0
+  vec4 reach;      // camera-relative place of the light, and how far it reaches; 0: without limit
+};
+
 GLOAM_SHARED_END
 
 #endif

@@ -76,7 +76,7 @@ void main() {
 #ifdef GLOAM_TEXTURED
   color = textured ? texel.rgb : color;
 #endif
-  out_base_color = encode_base_color(color, true);
+  out_base_color = encode_thin_color(color);
   out_normals = encode_normals(normal, flat_normal);
   out_material = vec4(kRoughness, 0.0, mix(kRootLight, 1.0, smoothstep(0.0, 0.6, along)), 0.0);
   out_emissive = vec4(0.0);

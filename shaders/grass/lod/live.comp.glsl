@@ -31,7 +31,7 @@ void main() {
   draws.cast_count = lod.cast_key < GLOAM_GRASS_CULLED ? min(bins[lod.cast_key + 1u], live) : 0u;
   casting =
       GrassCasting(draw_of(0u, lod.class_segments[GLOAM_GRASS_CAST_CLASS], lod.class_indices[GLOAM_GRASS_CAST_CLASS]),
-                   0u, float(lod.cast_every));
+                   0u, float(lod.cast_every), 0u, uvec3(0u, 1u, 1u));
   draws.live = live;
   draws.units_per_metre = lod.units_per_metre;
   draws.blade_groups = uvec3((live + 63u) / 64u, 1u, 1u);

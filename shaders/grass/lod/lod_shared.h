@@ -59,8 +59,11 @@ struct GrassDraws {
 struct GrassCasting {
   GrassDraw draw;
   uint count;
-  float wider;  // factor of their width
+  float wider;   // factor of their width
+  uint moved;    // not 0 if any of them has moved in its last steps, or has not been simulated
+  uvec3 groups;  // workgroups with a thread for each of them
 };
+#define GLOAM_GRASS_PART_WORDS 64u  // distance between the GrassCasting of parts of faces (part_casters.comp), words
 
 /// Masters that a frame simulates, written by live.comp and masters.comp.
 struct GrassDispatch {

@@ -37,12 +37,20 @@ vec3 scaled_before(vec3 at, vec3 before, float scale) {
   return scale == 1.0 ? before : scaled;
 }
 
+// In still air, a knot that would move by less than this in a frame stays where it is, so that blades come to rest.
+const float kStill = 4e-7;  // metres; a few steps of floats in a patch
+
 // Writes a knot. at, before: relative to the root, at the last step and a step earlier. fresh: the frame has put the
 // knot at rest, so it has no way.
 void store_knot(uint place, vec3 root, vec3 at, vec3 before, bool fresh) {
   precise vec3 at_in_patch = root + at;
   precise vec3 before_in_patch = root + before;
   precise vec3 way = at_in_patch - knots[place].xyz;
+  bool still = !fresh && steps.frame_steps != 0u && steps.wind.velocity == vec3(0.0) && dot(way, way) < kStill * kStill;
+  vec4 here = knots[place], earlier = previous_knots[place];
+  at_in_patch = still ? here.xyz : at_in_patch;
+  before_in_patch = still ? earlier.xyz : before_in_patch;
+  way = still ? vec3(0.0) : way;
   vec2 stored = !fresh && dot(way, way) < 1e8 ? pack_way(way) : pack_way(vec3(0.0));  // false for NaN
   knots[place] = vec4(at_in_patch, stored.x);
   previous_knots[place] = vec4(before_in_patch, stored.y);
