@@ -24,6 +24,7 @@
 #include "modules/grass/simulation/simulate_blades_pass.h"
 #include "modules/grass/simulation/steps.h"
 #include "modules/grass/simulation/wind.h"
+#include "modules/shadows/thin_surfaces.h"
 
 namespace gloam {
 namespace {
@@ -166,6 +167,7 @@ void announce_grass(FrameBuilder& frame) {
   if (visible.patches.empty() || !blade_pipelines_ready(frame)) return;
   const auto grass = std::make_shared<GrassFrame>();
   frame.put(GrassOnBoard(grass));
+  frame.put(ThinSurfaces{});
   const GrassKnobs knobs = grass_knobs(frame.knobs());
   const WorldBox box = casting_box(frame.world().resource<GrassField>(), visible.patches, knobs.cast_distance_m,
                                    metres_per_unit(frame.world()));

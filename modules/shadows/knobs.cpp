@@ -68,7 +68,6 @@ gpu::SpecConstants shadow_constants(const ShadowKnobs& knobs, std::uint32_t filt
   constants.set_if_present("kCoverage", knobs.mip_operator == GLOAM_SHADOW_MIPS_COVERAGE ? 1u : 0u);
   constants.set_if_present("kNear", knobs.near);
   constants.set_if_present("kNearDirections", static_cast<std::int32_t>(knobs.near_directions));
-  constants.set_if_present("kThinFilter", knobs.early_outs ? knobs.thin_filter : 0u);
   constants.set_if_present("kTerminator", knobs.terminator ? 1u : 0u);
   constants.set_if_present("kTransmission", knobs.transmission ? 1u : 0u);
   constants.set_if_present("kSubsurfaceBias", knobs.subsurface_backs ? 1u : 4u);

@@ -15,6 +15,7 @@
 #include "modules/shadows/maps/draw_passes.h"
 #include "modules/shadows/maps/planes.h"
 #include "modules/shadows/outputs.h"
+#include "modules/shadows/thin_surfaces.h"
 
 namespace gloam {
 namespace {
@@ -32,8 +33,11 @@ bool has_placed_face(const ViewFaces& view_faces) {
                      [](const ShadowFace& face) { return face.square.size > 0; });
 }
 
-/// Sets the specialisation constants of shaders that read `outputs`. filter: value of kFilter.
-void set_constants(const ShadowKnobs& knobs, std::uint32_t filter, ShadowsOutputs& outputs) {
+constexpr const char* kThinFilter = "kThinFilter";  // among the constants only of frames with thin surfaces
+
+/// Sets the specialisation constants of shaders that read `outputs`. filter: value of kFilter. thin: the frame has thin
+/// surfaces.
+void set_constants(const ShadowKnobs& knobs, std::uint32_t filter, bool thin, ShadowsOutputs& outputs) {
   outputs.cookies_only = filter == kNoShadows;
   outputs.standard = filter == kContactHardening && knobs.kernel == kStandardKernel;
   outputs.transmission = knobs.transmission;
@@ -41,6 +45,7 @@ void set_constants(const ShadowKnobs& knobs, std::uint32_t filter, ShadowsOutput
   ShadowKnobs used = outputs.cookies_only ? ShadowKnobs{} : knobs;
   used.transmission = knobs.transmission;
   outputs.constants = shadow_constants(used, filter);
+  if (thin) outputs.constants.set_if_present(kThinFilter, knobs.early_outs ? knobs.thin_filter : 0u);
   outputs.constants.set_if_present("kCookieLights", looked_up_cookies(outputs.cookie_lights));
 }
 
@@ -83,7 +88,7 @@ ShadowsOutputs with_knobs(const ShadowsOutputs& now, const KnobRegistry& registr
   ShadowKnobs knobs = shadow_knobs(registry);
   knobs.transmission = now.transmission;
   ShadowsOutputs other = now;
-  set_constants(knobs, knobs.enabled ? knobs.filter : kNoShadows, other);
+  set_constants(knobs, knobs.enabled ? knobs.filter : kNoShadows, now.constants.find(kThinFilter) != nullptr, other);
   if (other.cookies_only || !knobs.deferred || knobs.levels == 0)
     other.final_lists.reset();
   else if (!other.final_lists)
@@ -110,7 +115,11 @@ void add_shadow_passes(FrameBuilder& frame, ShadowStates& states) {
                          .cookies = uploads.cookies,
                          .traced = uploads.traced};
   outputs.cookie_lights = static_cast<std::uint32_t>(count_cookie_lights(frame.world()));
-  set_constants(knobs, traced ? kTracedShadows : has_maps ? knobs.filter : kNoShadows, outputs);
+  set_constants(knobs,
+                traced     ? kTracedShadows
+                : has_maps ? knobs.filter
+                           : kNoShadows,
+                frame.find<ThinSurfaces>() != nullptr, outputs);
   const bool has_lists = has_maps && can_generate(frame, knobs) && generate_pipelines_ready(frame, knobs, outputs);
   ShadowMaps maps;
   if (has_maps)

@@ -44,7 +44,7 @@ layout(constant_id = 15) const uint kFullPenumbra = 0u;   // 1: no early-outs, t
 layout(constant_id = 17) const uint kCoverage = 0u;
 // near_blockers.glsl: 0 off, 1 for wide blockers, 2 always where it may matter
 layout(constant_id = 21) const uint kNear = 1u;
-layout(constant_id = 29) const int kNearDirections = 16;  // directions from the receiver's that it looks along
+layout(constant_id = 30) const int kNearDirections = 16;  // directions from the receiver's that it looks along
 // 1: receivers under pixels are judged at their smooth surface (pixel_receiver()); 0: GeometryOutputs::smooth_surfaces
 // is not read
 layout(constant_id = 22) const uint kTerminator = 0u;
