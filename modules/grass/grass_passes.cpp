@@ -24,7 +24,7 @@
 #include "modules/grass/simulation/simulate_blades_pass.h"
 #include "modules/grass/simulation/steps.h"
 #include "modules/grass/simulation/wind.h"
-#include "modules/shadows/thin_surfaces.h"
+#include "modules/shadows/outputs.h"
 
 namespace gloam {
 namespace {

@@ -68,6 +68,10 @@ inline constexpr ChoiceKnob<std::uint32_t> kGrassShadowFilter{
     .exact = 0,
     .only_with = "shadows.filter=chs"};
 
+/// On the board if the frame draws thin surfaces into the geometry buffer (encode_thin_color() in gbuffer_api.glsl). A
+/// module that draws them puts it there in PassPhase::announce. Without it no shader looks for them.
+struct ThinSurfaces {};
+
 /// A square of texels in an atlas. Its origin is a multiple of its size.
 struct AtlasSquare {
   uvec2 origin = uvec2(0);  ///< texels from the upper left corner of mip 0

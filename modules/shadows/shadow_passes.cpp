@@ -15,7 +15,6 @@
 #include "modules/shadows/maps/draw_passes.h"
 #include "modules/shadows/maps/planes.h"
 #include "modules/shadows/outputs.h"
-#include "modules/shadows/thin_surfaces.h"
 
 namespace gloam {
 namespace {
