@@ -98,4 +98,8 @@ struct SceneEnvironment {
   float exposure_ev100 = 0.0f;
 };
 
+/// World resource: exposures are metered in every frame, even if the scene states one (SceneEnvironment). Kept by the
+/// module that meters.
+struct MeteredInEveryFrame {};
+
 }  // namespace gloam

@@ -10,6 +10,7 @@
 #include "engine/render/camera/view_constants.h"
 #include "modules/lighting/antialiasing/reference.h"
 #include "modules/lighting/components.h"
+#include "modules/lighting/display/metering.h"
 #include "modules/lighting/display/tone_reference.h"
 #include "modules/lighting/knobs.h"
 #include "modules/lighting/lighting_passes.h"
@@ -27,7 +28,7 @@ class LightingModule final : public Module {
   void scene_keys(KeyRegistry&) const override {}
 
   void knobs(KnobRegistry& registry) const override {
-    add_knobs(registry, name(), kToneMap, kToneMapTable, kDither, kSpecularAntialiasing, kAntialiasing);
+    add_knobs(registry, name(), kToneMap, kToneMapTable, kDither, kSpecularAntialiasing, kAntialiasing, kExposure);
   }
 
   [[nodiscard]] std::vector<ReferenceInfo> references() const override {
@@ -42,6 +43,7 @@ class LightingModule final : public Module {
     return list;
   }
 
+  void prepare_world(World& world, const KnobRegistry& registry) const override { choose_exposure(world, registry); }
   void prepare_view(World& world, ViewId view, const KnobRegistry& registry) const override {
     // Tokuyoshi and Kaplanyan: twice the variance 1 / 2π of a Gaussian of a pixel.
     constexpr float kPixelVariance = 0.32f;
@@ -79,6 +81,12 @@ class LightingModule final : public Module {
     if (phase == PassPhase::output) add_tone_map_passes(frame);
   }
 
+  void counters(const World& world, const RenderView&, CounterSink& sink) const override {
+    count_exposure(world, sink);
+  }
+  void result_counters(std::string_view name, const FrameResult& result, CounterSink& sink) const override {
+    count_metered_exposure(name, result, sink);
+  }
   void release() override { last_.reset(); }
 
  private:

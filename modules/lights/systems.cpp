@@ -179,8 +179,9 @@ float unseen_lux(const SceneEnvironment& environment) {
   return static_cast<float>(std::clamp(kShownAsNothing / exposure, 1e-30, 1e30));
 }
 
-void light_reach_system(View<Light> lights, Resource<const SceneEnvironment> environment) {
-  const float unseen = unseen_lux(*environment);
+void light_reach_system(View<Light> lights, Resource<const SceneEnvironment> environment,
+                        OptionalResource<const MeteredInEveryFrame> metered) {
+  const float unseen = metered ? kUnseenLux : unseen_lux(*environment);
   lights.each([&](Entity entity, Light& light) {
     if (light.range_m > 0.0f || light.unseen_lux == unseen) return;
     light.unseen_lux = unseen;

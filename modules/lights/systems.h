@@ -19,7 +19,8 @@ using FreshLights = View<const Light, const WorldTransform, Without<LightBounds>
 [[nodiscard]] float unseen_lux(const SceneEnvironment& environment);
 
 /// Sets Light::unseen_lux of lights without a range.
-void light_reach_system(View<Light> lights, Resource<const SceneEnvironment> environment);
+void light_reach_system(View<Light> lights, Resource<const SceneEnvironment> environment,
+                        OptionalResource<const MeteredInEveryFrame> metered);
 
 /// Finds the world's lights in all archetypes, detects changes by comparison, and updates LightBounds and LightSet.
 void light_bounds_system(KeptLights kept, FreshLights fresh, Resource<LightSet> set, JobExecutor& jobs,

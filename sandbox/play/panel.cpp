@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/core/text/formatted.h"
+#include "engine/render/camera/light_scale.h"
 #include "engine/scene/resources.h"
 #include "modules/depth_of_field/components.h"
 #include "modules/module_list/module_list.h"
@@ -129,7 +130,8 @@ PanelScene PlayPanel::scene_of(const PlayControls& controls, const ViewSettings&
                              .intensity = light.intensity,
                              .muted = light.muted,
                              .solo = light.solo});
-  auto& environment = session_.world.resource<SceneEnvironment>();
+  const auto& environment = std::as_const(session_.world).resource<SceneEnvironment>();
+  const bool automatic = !has_stated_exposure(session_.world);
   const auto* lens = std::as_const(session_.world).try_get<DepthOfField>(session_.camera);
   const auto& cameras = session_.info.cameras;
   const auto shown = view.follow_camera ? std::ranges::find(cameras, session_.camera) : cameras.end();
@@ -140,13 +142,9 @@ PanelScene PlayPanel::scene_of(const PlayControls& controls, const ViewSettings&
           .time_s = controls.time_s,
           .paused = controls.paused,
           .pause = controls.pause,
-          .automatic_exposure = !environment.has_exposure,
-          .ev100 = environment.exposure_ev100,
-          .set_exposure =
-              [&environment](bool automatic, float ev100) {
-                environment.has_exposure = !automatic;
-                environment.exposure_ev100 = ev100;
-              },
+          .automatic_exposure = automatic,
+          .ev100 = automatic ? metered_ev100() : environment.exposure_ev100,
+          .set_exposure = [this](bool on, float ev100) { set_exposure(on, ev100); },
           .has_camera = session_.world.alive(session_.camera),
           .focus_m = lens != nullptr ? lens->focus_m : 0.0f,
           .f_number = lens != nullptr ? lens->f_number : DepthOfField{}.f_number,
@@ -164,6 +162,22 @@ PanelScene PlayPanel::scene_of(const PlayControls& controls, const ViewSettings&
                 said_ = "the command line is on the clipboard";
               },
           .said = said_};
+}
+
+float PlayPanel::metered_ev100() const {
+  const auto counters = session_.renderer->report().counters;
+  const auto metered = counters.find("lighting.exposure_ev100");
+  return metered == counters.end() ? 0.0f : static_cast<float>(metered->second);
+}
+
+void PlayPanel::set_exposure(bool automatic, float ev100) {
+  auto& environment = session_.world.resource<SceneEnvironment>();
+  environment.has_exposure = !automatic;
+  environment.exposure_ev100 = ev100;
+  // Metering in every frame would go on without regard to the value.
+  KnobRegistry& knobs = session_.renderer->knobs();
+  if (!automatic && knobs.find("lighting.exposure") != nullptr)
+    static_cast<void>(knobs.set("lighting.exposure", "fixed"));
 }
 
 void PlayPanel::set_lens(float focus_m, float f_number) {

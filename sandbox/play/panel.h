@@ -73,6 +73,9 @@ class PlayPanel {
   void show(WindowInput& input, const PanelFrame& frame, PanelContent& content, const PlayControls& controls);
   [[nodiscard]] PanelScene scene_of(const PlayControls& controls, const ViewSettings& view);
   void pick(const WindowInput& input, const ViewSettings& view, double scale);
+  /// The exposure that the newest finished frame has metered.
+  [[nodiscard]] float metered_ev100() const;
+  void set_exposure(bool automatic, float ev100);
   void set_lens(float focus_m, float f_number);
   void save_config(const std::string& scene);
   [[nodiscard]] Status write_config(const std::string& path) const;

@@ -54,7 +54,10 @@ void Panel::show_scene(const PanelScene& scene) {
   bool automatic = scene.automatic_exposure;
   if (ImGui::Checkbox("automatic exposure", &automatic)) scene.set_exposure(automatic, scene.ev100);
   remember_widget("exposure auto");
-  if (!scene.automatic_exposure) {
+  if (scene.automatic_exposure) {
+    ImGui::SameLine(0.0f, 2.0f * ImGui::GetFontSize());
+    ImGui::TextDisabled("EV100 %.1f", static_cast<double>(scene.ev100));
+  } else {
     float ev100 = scene.ev100;
     ImGui::SetNextItemWidth(-1.0f);
     if (ImGui::SliderFloat("##exposure", &ev100, -6.0f, 18.0f, "EV100 %.1f")) scene.set_exposure(false, ev100);

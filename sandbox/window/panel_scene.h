@@ -33,7 +33,7 @@ struct PanelScene {
   std::function<void(bool paused)> pause;
 
   bool automatic_exposure = true;
-  float ev100 = 0.0f;
+  float ev100 = 0.0f;  ///< of an automatic exposure: the metered value, from which one that is set by hand starts
   std::function<void(bool automatic, float ev100)> set_exposure;
 
   bool has_camera = false;  ///< the view's camera can have a lens

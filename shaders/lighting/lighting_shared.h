@@ -40,6 +40,16 @@ struct ToneTableConstants {
 struct MeterConstants {
   uvec2 size;           // pixels of the picture
   float inverse_scale;  // 1 / light_scale
+  uint frame;           // RenderView::frame: a frame that is drawn again keeps its exposure
+  uint begins;          // 1: there is no exposure yet
+  float to_bright;      // share of the way to a lower exposure, in stops, that this frame goes
+  float to_dark;        // to a higher one
+};
+
+/// A metered exposure, over frames.
+struct MeteredExposure {
+  float exposure;  // factor from cd/m² to units in which 1 is white before the tone curve
+  uint frame;      // of the newest frame that metered
 };
 
 /// Constants for finding the edges of a picture along rows or columns (shaders/lighting/antialiasing/edge_bits.glsl).

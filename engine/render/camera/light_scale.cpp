@@ -24,6 +24,10 @@ double strongest(const vec3& light) {
 
 }  // namespace
 
+bool has_stated_exposure(const World& world) {
+  return world.resource<SceneEnvironment>().has_exposure && world.try_resource<MeteredInEveryFrame>() == nullptr;
+}
+
 float light_scale(const SceneEnvironment& environment) {
   if (!environment.has_exposure || !std::isfinite(environment.exposure_ev100)) return 1.0f;
   constexpr int kFirst = -2, kLast = 7;  // floor(log2(white)) that needs no scale

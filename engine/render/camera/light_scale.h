@@ -13,6 +13,9 @@ namespace gloam {
 /// The greatest half float that is not infinite.
 inline constexpr double kMostHalf = 65504.0;
 
+/// Whether frames have the exposure that SceneEnvironment states. Otherwise it is metered, and not known before.
+[[nodiscard]] bool has_stated_exposure(const World& world);
+
 /// Factor from cd/m² and lux to the light in a view's half-float images (RenderView::light_scale): a power of two, so
 /// that scaled light has the same bits of mantissa. It is 1 if white, 1.2 · 2^EV cd/m², is from 1/4 to 256. Otherwise
 /// it brings white to the nearer end of that range: light of 255 times white does not overflow, and the darkest step of

@@ -22,9 +22,8 @@ void hand_out_results(World& world, ViewId view, const ModuleSet& modules, const
 /// captures are kept for pictures with other exposures.
 float light_scale_of(const Frame& frame, const FrameView& own, const ViewStore& views) {
   if (own.request.target.light) return 1.0f;
-  const auto& environment = frame.world.resource<SceneEnvironment>();
   const bool captures = own.request.settings.purpose == ViewPurpose::capture && !own.main;
-  if (environment.has_exposure && !captures) return light_scale(environment);
+  if (has_stated_exposure(frame.world) && !captures) return light_scale(frame.world.resource<SceneEnvironment>());
   const ViewImages* last =
       views.find(own.main.value_or(own.request.settings.id));  // companions have that of their view
   const bool has_last = !captures && last != nullptr && last->drawn;

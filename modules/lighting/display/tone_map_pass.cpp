@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/render/declare/compute_pass.h"
 #include "engine/render/declare/draw_pass.h"
-#include "engine/scene/resources.h"
 #include "modules/lighting/antialiasing/smooth_edges_passes.h"
-#include "modules/lighting/display/exposure.h"
+#include "modules/lighting/display/metering.h"
 #include "modules/lighting/knobs.h"
 #include "modules/lighting/lighting_passes.h"
 #include "modules/lighting/outputs.h"
@@ -14,20 +13,6 @@
 namespace gloam {
 namespace {
 
-/// The metered exposure of the view's camera. It stays for as long as frames show the camera: History destroys it
-/// later.
-Result<HistoryBuffer> exposure_of(FrameBuilder& frame) {
-  gpu::BufferDesc desc;
-  desc.name = "exposure";
-  desc.module = "lighting";
-  desc.size = sizeof(float);
-  desc.usage = gpu::BufferUsage::storage;
-  const Entity camera = frame.view().camera_entity;
-  return frame.history_buffer(desc, {.scope = HistoryScope::view,
-                                     .final_access = gpu::Access::fragment_read,
-                                     .instance = std::uint64_t{camera.generation} << 32 | camera.index});
-}
-
 shaders::ScatteredConstants constants_of(const ScatteredLight& scattered) {
   return {scattered.uv_scale, scattered.uv_offset, scattered.share};
 }
@@ -36,15 +21,6 @@ shaders::ScatteredConstants constants_of(const ScatteredLight& scattered) {
 ScatteredLight scattered_light(const FrameBuilder& frame) {
   const auto* found = frame.find<ScatteredLight>();
   return found != nullptr ? *found : ScatteredLight{};
-}
-
-/// Meters the frame's light into an exposure.
-void add_meter_pass(FrameBuilder& frame, BufferRef& exposure) {
-  ComputePass pass(frame, "meter", shaders::lighting::meter_comp);
-  pass.read("lit_image", frame.get<LitOutput>().color);
-  exposure = pass.write("exposure", exposure);
-  pass.push(shaders::MeterConstants{{frame.view().width, frame.view().height}, 1.0f / frame.view().light_scale});
-  pass.dispatch(1);
 }
 
 /// The curve's number in tone_curve.glsl.
@@ -71,9 +47,8 @@ ImageRef add_tone_table_pass(FrameBuilder& frame) {
 }  // namespace
 
 void add_tone_map_passes(FrameBuilder& frame) {
-  const auto& environment = frame.world().resource<SceneEnvironment>();
-  auto metered = exposure_of(frame);  // bound even if the exposure is set
-  if (!frame.check(metered)) return;
+  const FrameExposure exposure = add_exposure_passes(frame);
+  if (!frame.status().ok()) return;
   TargetOutput& target = frame.get<TargetOutput>();
 
   const ScatteredLight scattered = scattered_light(frame);
@@ -81,13 +56,8 @@ void add_tone_map_passes(FrameBuilder& frame) {
   constants.scattered = constants_of(scattered);
   constants.curve = tone_curve_of(frame);
   constants.encode_srgb = gpu::encodes_srgb(target.format) ? 0 : 1;
-  constants.exposure = 1.0f / frame.view().light_scale;
-  if (environment.has_exposure) {
-    constants.exposure *= exposure_from_ev100(environment.exposure_ev100);
-  } else {
-    constants.metered = 1;
-    if (!metered->filled()) add_meter_pass(frame, metered->buffer);
-  }
+  constants.exposure = exposure.factor;
+  constants.metered = exposure.metered ? 1 : 0;
 
   const ImageRef table = add_tone_table_pass(frame);
   const bool smooth = antialiases(frame), dither = frame.knobs().value(kDither);
@@ -98,7 +68,7 @@ void add_tone_map_passes(FrameBuilder& frame) {
                   {shaders::lighting::tone_map_frag,
                    {{"kTable", table ? 1u : 0u}, {"kOutput", output}, {"kScattered", scattered.light ? 1u : 0u}}});
     pass.read("lit_image", frame.get<LitOutput>().color);
-    pass.read("metered_exposure", metered->buffer);
+    pass.read("metered_exposure", exposure.buffer);
     pass.read("table_image", table, Sampling::linear);
     pass.read("scattered_image", scattered.light, Sampling::linear);
     pass.push(constants);

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "engine/math/srgb.h"
+#include "engine/render/camera/light_scale.h"
 #include "engine/scene/resources.h"
 #include "modules/lighting/outputs.h"
 
@@ -38,28 +40,46 @@ double tone_curve(ToneCurve curve, double x) {
   return std::clamp(x, 0.0, 1.0);
 }
 
-struct LitPixels {
-  double log2_sum = 0.0;  ///< of luminance
-  std::uint32_t count = 0;
-};
+/// What metering counts on a grid of side × side pixels, as meter.comp.glsl defines it.
+struct Histogram {
+  static constexpr double kBinsPerStop = 4.0;
+  static constexpr std::size_t kBins = 454;
 
-/// The pixels with light on a grid of side × side.
-LitPixels meter(const LinearPicture& lit, std::uint32_t side) {
-  LitPixels metered;
-  for (std::uint32_t row = 0; row < side; ++row) {
-    for (std::uint32_t column = 0; column < side; ++column) {
-      const std::size_t x = (column * 2 + 1) * lit.width / (2 * side);
-      const std::size_t y = (row * 2 + 1) * lit.height / (2 * side);
-      const float* light = &lit.rgba[4 * (y * lit.width + x)];
-      const double luminance = 0.2126 * static_cast<double>(light[0]) + 0.7152 * static_cast<double>(light[1]) +
-                               0.0722 * static_cast<double>(light[2]);
-      if (!(luminance > 0.0)) continue;
-      metered.log2_sum += std::log2(std::clamp(luminance, 1e-4, 1e30));
-      ++metered.count;
-    }
+  std::vector<double> counts = std::vector<double>(kBins, 0.0);  ///< of pixels
+  std::uint32_t lit = 0;
+
+  static double first_stop() { return std::log2(1e-4); }
+
+  Histogram(const LinearPicture& picture, std::uint32_t side) {
+    for (std::uint32_t row = 0; row < side; ++row)
+      for (std::uint32_t column = 0; column < side; ++column) {
+        const std::size_t x = (column * 2 + 1) * picture.width / (2 * side);
+        const std::size_t y = (row * 2 + 1) * picture.height / (2 * side);
+        const float* light = &picture.rgba[4 * (y * picture.width + x)];
+        count(0.2126 * static_cast<double>(light[0]) + 0.7152 * static_cast<double>(light[1]) +
+              0.0722 * static_cast<double>(light[2]));
+      }
   }
-  return metered;
-}
+  void count(double luminance) {
+    if (!(luminance > 0.0)) return;
+    const double at = (std::log2(std::clamp(luminance, 1e-4, 1e30)) - first_stop()) * kBinsPerStop;
+    const double bin = std::min(std::floor(at), static_cast<double>(kBins - 2));
+    counts[static_cast<std::size_t>(bin)] += 1.0 - (at - bin);
+    counts[static_cast<std::size_t>(bin) + 1] += at - bin;
+    ++lit;
+  }
+  /// Mean of log2 luminance without the darkest tenth and the brightest twentieth.
+  [[nodiscard]] double trimmed_mean() const {
+    const double from = 0.1 * lit, to = 0.95 * lit;
+    double below = 0.0, sum = 0.0;
+    for (std::size_t i = 0; i < kBins; ++i) {
+      const double up_to = below + counts[i];
+      sum += std::max(std::min(up_to, to) - std::max(below, from), 0.0) * static_cast<double>(i);
+      below = up_to;
+    }
+    return first_stop() + sum / (to - from) / kBinsPerStop;
+  }
+};
 
 /// The light that the frame's picture shows: with ScatteredLight, if the frame can be drawn again.
 Result<LinearPicture> light_of_frame(const ReferenceInput& input) {
@@ -81,9 +101,9 @@ dvec3 tone_mapped(ToneCurve curve, const dvec3& light) {
 
 double metered_exposure(const LinearPicture& lit) {
   constexpr std::uint32_t kFewest = 32;
-  LitPixels metered = meter(lit, 32);
-  if (metered.count < kFewest) metered = meter(lit, 256);
-  const double mean = metered.count != 0 ? std::exp2(metered.log2_sum / metered.count) : 1e-4;
+  Histogram metered(lit, 32);
+  if (metered.lit < kFewest) metered = Histogram(lit, 256);
+  const double mean = metered.lit != 0 ? std::exp2(metered.trimmed_mean()) : 1e-4;
   return (1.03 - 2.0 / (2.0 + std::log10(mean + 1.0))) / mean;
 }
 
@@ -101,7 +121,7 @@ Result<FramePictures> draw_tone_reference(const ReferenceInput& input) {
   if (!shown_light) return shown_light.error();
   const LinearPicture& lit = *shown_light;
   const auto& environment = input.world.resource<SceneEnvironment>();
-  const double exposure = environment.has_exposure
+  const double exposure = has_stated_exposure(input.world)
                               ? 1.0 / (1.2 * std::exp2(static_cast<double>(environment.exposure_ev100)))
                               : metered_exposure(input.frame.linear);
   const ToneCurve curve = input.knobs.value(kToneMap);

@@ -24,27 +24,6 @@ double curve(const std::string& name, double x) {
   return std::clamp(shown, 0.0, 1.0);
 }
 
-/// The mean of log2 luminance over the lit pixels of a grid of 32×32, of 256×256 if there are less than 32, and the key
-/// of Krawczyk et al. 2005.
-double expected_exposure(const LinearPicture& p, std::uint32_t side = 32) {
-  double sum = 0.0;
-  std::uint32_t count = 0;
-  for (std::uint32_t row = 0; row < side; ++row) {
-    for (std::uint32_t column = 0; column < side; ++column) {
-      const std::size_t x = (column * 2 + 1) * p.width / (2 * side);
-      const std::size_t y = (row * 2 + 1) * p.height / (2 * side);
-      const float* at = &p.rgba[(y * p.width + x) * 4];
-      const double luminance = 0.2126 * at[0] + 0.7152 * at[1] + 0.0722 * at[2];
-      if (!(luminance > 0.0)) continue;
-      sum += std::log2(std::clamp(luminance, 1e-4, 1e6));
-      ++count;
-    }
-  }
-  if (count < 32 && side == 32) return expected_exposure(p, 256);
-  const double mean = count > 0 ? std::exp2(sum / count) : 1e-4;
-  return (1.03 - 2.0 / (2.0 + std::log10(mean + 1.0))) / mean;
-}
-
 struct PictureOfLight : test::LitSceneTest {
   void SetUp() override {
     ASSERT_NO_FATAL_FAILURE(LitSceneTest::SetUp());
@@ -150,7 +129,7 @@ TEST_F(PictureOfLight, is_the_same_in_a_target_that_does_not_encode) {
 TEST_F(PictureOfLight, is_metered_in_the_first_frame_and_then_fixed) {
   ASSERT_TRUE(renderer->knobs().set("lighting.tone_map", "linear").ok());
   ASSERT_NO_FATAL_FAILURE(draw());
-  const double exposure = expected_exposure(linear());
+  const double exposure = metered_exposure(linear());
   expect_shown(linear(), picture().rgba, "linear", exposure);
   const Picture first = picture();
   set_sky(0.2f);
@@ -172,11 +151,11 @@ TEST_F(PictureOfLight, is_metered_once_a_camera_and_view) {
   ViewSettings other = settings;
   other.id = ViewId{1};
   ASSERT_NO_FATAL_FAILURE(draw(world, other));
-  expect_shown(linear(1), picture(1).rgba, "linear", expected_exposure(linear(1)));
+  expect_shown(linear(1), picture(1).rgba, "linear", metered_exposure(linear(1)));
   ViewSettings followed = settings;
   followed.camera_entity = world.create(Camera{.fov_y = 2.4f}, WorldTransform{settings.world_from_camera});
   ASSERT_NO_FATAL_FAILURE(draw(world, followed));
-  expect_shown(linear(), picture().rgba, "linear", expected_exposure(linear()));
+  expect_shown(linear(), picture().rgba, "linear", metered_exposure(linear()));
 }
 
 TEST_F(PictureOfLight, is_metered_anew_for_a_world_that_was_prepared_again) {
@@ -185,7 +164,7 @@ TEST_F(PictureOfLight, is_metered_anew_for_a_world_that_was_prepared_again) {
   renderer->prepare_world(world);
   set_sky(0.1f);
   ASSERT_NO_FATAL_FAILURE(draw());
-  expect_shown(linear(), picture().rgba, "linear", expected_exposure(linear()));
+  expect_shown(linear(), picture().rgba, "linear", metered_exposure(linear()));
 }
 
 TEST_F(PictureOfLight, of_two_views_in_one_frame_is_metered_for_each) {
@@ -197,8 +176,8 @@ TEST_F(PictureOfLight, of_two_views_in_one_frame_is_metered_for_each) {
   for (int frame = 0; frame < 2; ++frame) {
     ASSERT_TRUE(renderer->render(world, requests).ok());
     ASSERT_TRUE(renderer->wait().ok());
-    expect_shown(linear(0), picture(0).rgba, "linear", expected_exposure(linear(0)));
-    expect_shown(linear(1), picture(1).rgba, "linear", expected_exposure(linear(1)));
+    expect_shown(linear(0), picture(0).rgba, "linear", metered_exposure(linear(0)));
+    expect_shown(linear(1), picture(1).rgba, "linear", metered_exposure(linear(1)));
   }
 }
 
@@ -216,7 +195,7 @@ TEST_F(PictureOfLight, is_exposed_for_what_is_lit_before_black) {
     test::SceneMaker maker(dark);
     maker.draw(maker.mesh(test::quad(half, maker.material(lamp))));
     ASSERT_NO_FATAL_FAILURE(draw(dark, settings));
-    expect_shown(linear(), picture().rgba, "linear", expected_exposure(linear()));
+    expect_shown(linear(), picture().rgba, "linear", metered_exposure(linear()));
     const double key = 1.03 - 2.0 / (2.0 + std::log10(5.0 + 1.0));
     const std::size_t middle = (std::size_t{settings.height} / 2 * settings.width + settings.width / 2) * 4;
     EXPECT_NEAR(picture().rgba[middle], 255.0 * linear_to_srgb(key), 1.0) << "a lamp of " << half << " m";
@@ -235,7 +214,7 @@ TEST_F(PictureOfLight, of_a_black_world_is_black) {
 TEST_F(PictureOfLight, takes_the_scenes_exposure_before_a_metered_one) {
   ASSERT_TRUE(renderer->knobs().set("lighting.tone_map", "linear").ok());
   ASSERT_NO_FATAL_FAILURE(draw());
-  const double metered = expected_exposure(linear());
+  const double metered = metered_exposure(linear());
   environment().has_exposure = true;
   environment().exposure_ev100 = 1.0f;
   ASSERT_NO_FATAL_FAILURE(draw());

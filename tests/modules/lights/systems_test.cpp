@@ -86,6 +86,10 @@ TEST(LightReach, a_light_without_a_range_ends_where_no_exposure_shows_it) {
   const std::uint64_t version = lit.set().version;
   (void)reach();
   EXPECT_EQ(lit.set().version, version) << "nothing changed";
+  environment.exposure_ev100 = 12.0f;
+  lit.world.set_resource(MeteredInEveryFrame{});
+  EXPECT_NEAR(reach(), 2000.0, 1e-2) << "the exposure is not known";
+  lit.world.remove_resource<MeteredInEveryFrame>();
   environment.has_exposure = false;
   EXPECT_NEAR(reach(), 2000.0, 1e-2);
 }
