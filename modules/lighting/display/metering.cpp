@@ -52,7 +52,7 @@ void add_meter_pass(FrameBuilder& frame, BufferRef& exposure, ExposureMode mode,
   }
   ComputePass pass(frame, "meter", shaders::lighting::meter_comp);
   pass.read("lit_image", frame.get<LitOutput>().color);
-  exposure = pass.write("exposure", exposure);
+  exposure = pass.write("metered", exposure);
   pass.push(constants);
   pass.dispatch(1);
 }

@@ -73,9 +73,9 @@ struct Histogram {
     const double from = 0.1 * lit, to = 0.95 * lit;
     double below = 0.0, sum = 0.0;
     for (std::size_t i = 0; i < kBins; ++i) {
-      const double up_to = below + counts[i];
-      sum += std::max(std::min(up_to, to) - std::max(below, from), 0.0) * static_cast<double>(i);
-      below = up_to;
+      const double first = std::max(from - below, 0.0), last = std::min(to - below, counts[i]);
+      if (last > first) sum += (last - first) * (static_cast<double>(i) - 0.5 + 0.5 * (first + last) / counts[i]);
+      below += counts[i];
     }
     return first_stop() + sum / (to - from) / kBinsPerStop;
   }

@@ -6,9 +6,9 @@
 
 // Automatic exposure of one view. A histogram of log2 luminance counts a grid of 32×32 pixels in bins of a quarter of a
 // stop. The darkest tenth and the brightest twentieth count for nothing, such as a lamp in a corner; of the rest the
-// mean is taken. Then the key value of Krawczyk et al. 2005, which keeps night darker than day. A pixel counts in two
-// bins by its distance from their middles, so that the exposure follows the light without steps. Sums are integers, so
-// the result does not depend on the order of threads.
+// mean is taken. Then the key value of Krawczyk et al. 2005, which keeps night darker than day. So that the exposure
+// follows the light without steps, a pixel counts in two bins by its distance from their middles, and a bin's pixels
+// count as if they filled its width evenly. Sums are integers: the result does not depend on the order of threads.
 //
 // Black pixels count for nothing either, such as the background of a scene without a sky, and what no light reaches:
 // the exposure is that of what is lit. If fewer than kFewest pixels of the grid are lit, a grid of 256×256 is metered,
@@ -47,14 +47,14 @@ void count_pixels(uint side) {
   }
 }
 
-// Mean of log2 luminance between the two percentiles. Not called without a lit pixel.
+// Mean of log2 luminance between the two percentiles. There is a lit pixel.
 float trimmed_mean() {
   float total = float(lit_pixels) * float(kWhole);
   float from = kDarkest * total, to = (1.0 - kBrightest) * total, below = 0.0, sum = 0.0;
   for (uint i = 0u; i < kBins; ++i) {
-    float up_to = below + float(counts[i]);
-    sum += max(min(up_to, to) - max(below, from), 0.0) * float(i);
-    below = up_to;
+    float count = float(counts[i]), first = max(from - below, 0.0), last = min(to - below, count);
+    if (last > first) sum += (last - first) * (float(i) - 0.5 + 0.5 * (first + last) / count);
+    below += count;
   }
   return kFirstStop + sum / (to - from) / kBinsPerStop;
 }
