@@ -54,6 +54,8 @@ DrawProgram shading_program(LocalLights source, const ShadingInputs& inputs, con
   if (inputs.specular_ambient_taken) program.constants.set("kSpecularAmbient", 0u);
   if (inputs.surroundings_follow) program.constants.set("kSpecularAmbient", 2u);
   if (inputs.diffuse_light_wanted) program.constants.set("kDiffuseLight", 1u);
+  program.constants.set(indirect_constants(inputs));
+  if (inputs.traced_indirect) program.constants.set("kTracedIndirect", 1u);
   if (final_lists) {
     program.constants.set(shadows->final_lists->constants);
   } else if (tiled) {
@@ -87,6 +89,9 @@ gpu::GraphicsPipelineDesc pipeline_of(const DrawProgram& program, const ShadingI
 /// Binds what the program in use declares. `shadows`: null for shading without shadows and cookies.
 void read_inputs(FrameBuilder& frame, DrawPass& pass, const ShadingInputs& inputs, const ShadowsOutputs* shadows) {
   pass.read_if_declared("environment", inputs.environment);
+  pass.read_if_declared("indirect", inputs.indirect_constants);
+  pass.read_if_declared("diffuse_probes", inputs.diffuse_probes);
+  pass.read_if_declared("traced_indirect", inputs.traced_indirect);
   read_geometry(pass, frame.get<GeometryOutputs>());
   read_light_lists(pass, inputs.outputs);
   const auto* surroundings = frame.find<SurroundingsOutput>();
@@ -187,6 +192,7 @@ void add_deferred_pass(FrameBuilder& frame) {
   if (variant.source == LocalLights::final_lists && !variant.shadows->final_lists->always_complete)
     draw_fallback_tiles(frame, pass, inputs, *variant.shadows);
   pass.use(sky_program(inputs));
+  pass.read_if_declared("environment", inputs.sky);
   pass.draw_triangle();
 }
 

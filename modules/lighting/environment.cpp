@@ -53,6 +53,25 @@ void add_surroundings(FrameBuilder& frame, ShadingInputs& inputs) {
       frame.upload_items(changed ? std::span<const vec4>(probes->factors) : std::span(&no_factor, 1));
 }
 
+void add_indirect_light(FrameBuilder& frame, ShadingInputs& inputs) {
+  const IndirectLight* light = frame.find<IndirectLight>();
+  if (light == nullptr) return;
+  inputs.traced_indirect = light->traced;
+  if (light->probes.empty()) return;
+  const std::span<const shaders::DiffuseProbe> probes(light->probes);
+  shaders::IndirectConstants constants{};
+  constants.probes = static_cast<std::uint32_t>(probes.size());
+  std::ranges::copy(probes.first(std::min<std::size_t>(probes.size(), GLOAM_FEW_PROBES)), constants.few_probes);
+  inputs.indirect = 1 + probe_constant(probes.size());
+  inputs.indirect_constants = frame.upload_uniform(constants);
+  if (probes.size() > GLOAM_FEW_PROBES) inputs.diffuse_probes = frame.upload_items(probes);
+}
+
+gpu::Binding::BufferRange upload_environment(FrameBuilder& frame, const SceneEnvironment& sky, float scale) {
+  return frame.upload_uniform(shaders::EnvironmentConstants{
+      vec4(sky.sky_zenith * scale, 0.0f), vec4(sky.sky_horizon * scale, 0.0f), vec4(sky.sky_ground * scale, 0.0f)});
+}
+
 }  // namespace
 
 const ShadingInputs& shading_inputs(FrameBuilder& frame) {
@@ -60,13 +79,15 @@ const ShadingInputs& shading_inputs(FrameBuilder& frame) {
   ShadingInputs inputs;
   const auto& sky = frame.world().resource<SceneEnvironment>();
   const float scale = frame.view().light_scale;
-  inputs.environment = frame.upload_uniform(shaders::EnvironmentConstants{
-      vec4(sky.sky_zenith * scale, 0.0f), vec4(sky.sky_horizon * scale, 0.0f), vec4(sky.sky_ground * scale, 0.0f)});
+  const bool left_out = frame.world().try_resource<SurroundingsLeftOut>() != nullptr;
+  inputs.sky = upload_environment(frame, sky, scale);
+  inputs.environment = left_out ? upload_environment(frame, sky, 0.0f) : inputs.sky;
   inputs.specular_ambient_taken = frame.find<SpecularAmbientTaken>() != nullptr;
   inputs.diffuse_light_wanted = frame.find<DiffuseLightWanted>() != nullptr;
   inputs.transmission = lets_light_through(frame.world());
   inputs.plain_highlights = plain_highlights(frame.knobs());
   add_surroundings(frame, inputs);
+  add_indirect_light(frame, inputs);
   if (const LightsOutputs* lights = frame.find<LightsOutputs>()) {
     inputs.directional_count = lights->directional_count;
     inputs.outputs = *lights;
@@ -74,6 +95,12 @@ const ShadingInputs& shading_inputs(FrameBuilder& frame) {
     inputs.outputs.lights = *range;
   }
   return frame.put(inputs);
+}
+
+gpu::SpecConstants indirect_constants(const ShadingInputs& inputs) {
+  gpu::SpecConstants constants;
+  if (inputs.indirect > 0) constants.set("kIndirect", inputs.indirect);
+  return constants;
 }
 
 gpu::SpecConstants surroundings_constants(bool reflects, std::size_t probes) {
@@ -87,6 +114,8 @@ gpu::SpecConstants surroundings_constants(bool reflects, std::size_t probes) {
 void read_surroundings(ShaderPass& pass, FrameBuilder& frame) {
   const ShadingInputs& inputs = shading_inputs(frame);
   pass.read_if_declared("environment", inputs.environment);
+  pass.read_if_declared("indirect", inputs.indirect_constants);
+  pass.read_if_declared("diffuse_probes", inputs.diffuse_probes);
   pass.read_if_declared("surroundings", inputs.surroundings);
   pass.read_if_declared("probe_rows", inputs.probe_rows);
   pass.read_if_declared("capture_factors", inputs.capture_factors);

@@ -46,7 +46,8 @@ SurfacePass choose_version(FrameBuilder& frame) {
     if (best.tiled && frame.has_surfaces(draws, all_lights)) return all_lights;
   }
   const ShadingInputs& inputs = shading_inputs(frame);
-  const gpu::SpecConstants constants = surroundings_constants(inputs.reflects, inputs.probes);
+  gpu::SpecConstants constants = surroundings_constants(inputs.reflects, inputs.probes);
+  constants.set(indirect_constants(inputs));
   const SurfacePass unshadowed = forward_surface_pass({.tiled = best.tiled, .constants = constants});
   if (!best.tiled || frame.request_surfaces(draws, unshadowed)) return unshadowed;
   return forward_surface_pass({.constants = constants});
@@ -58,6 +59,7 @@ void list_forward_pipelines(const ShadingInputs& inputs, const ShadowsOutputs& s
                             std::span<const SurfaceVariant> variants, PipelineList& list) {
   ForwardLighting version = forward_lighting(&inputs.outputs, &shadows);
   version.constants.set(surroundings_constants(inputs.reflects, inputs.probes).where_present());
+  version.constants.set(indirect_constants(inputs).where_present());
   const SurfacePass pass = forward_surface_pass(version);
   for (const SurfaceVariant& variant : variants) list.push_back(surface_pipeline_desc(pass, variant));
 }

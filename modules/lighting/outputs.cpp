@@ -47,6 +47,8 @@ ForwardLighting forward_lighting(const FrameBuilder& frame) {
   if (lets_light_through(frame.world())) version.constants.set_if_present("kTransmission", 1u);
   if (const SurroundingProbes* probes = frame.find<SurroundingProbes>())
     version.constants.set(surroundings_constants(true, probes->rows.size()).where_present());
+  if (const IndirectLight* indirect = frame.find<IndirectLight>(); indirect != nullptr && !indirect->probes.empty())
+    version.constants.set_if_present("kIndirect", 1 + probe_constant(indirect->probes.size()));
   return version;
 }
 

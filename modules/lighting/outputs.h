@@ -16,6 +16,7 @@
 #include "engine/render/reference/reference.h"
 #include "modules/lights/outputs.h"
 #include "modules/shadows/outputs.h"
+#include "shaders/lighting/indirect_shared.h"
 #include "shaders/lighting/probes_shared.h"
 
 namespace gloam {
@@ -51,6 +52,21 @@ struct SurroundingProbes {
   float scale = 1.0f;                   ///< from the light of the images to that of the view
   bool surroundings_follow = false;     ///< SurroundingsOutput will follow
 };
+
+/// Diffuse light of the surroundings of the view, in place of that of sky and ground alone. The module that has it puts
+/// this on the board in PassPhase::announce.
+struct IndirectLight {
+  /// Probes with a box from the smallest to the largest, then the global one; terms times RenderView::light_scale.
+  /// ProbeRow::layer, emission and factor are not used.
+  std::vector<shaders::DiffuseProbe> probes;
+  /// For references: takes the place of the probes on opaque surfaces. The mean radiance, weighted by the cosine, of
+  /// the hemisphere around each pixel's normal, cd/m², of the view's size; null: none.
+  ImageRef traced;
+};
+
+/// World resource: surfaces get no light of sky and ground, which are drawn as ever. For captures of the light that a
+/// surface gets from others.
+struct SurroundingsLeftOut {};
 
 /// The constant kProbes of shaders that include surroundings_api.glsl, for this number of rows.
 [[nodiscard]] std::uint32_t probe_constant(std::size_t rows);

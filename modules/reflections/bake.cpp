@@ -29,6 +29,7 @@
 #include "modules/reflections/bake/proxy_texture.h"
 #include "modules/reflections/components.h"
 #include "modules/reflections/culling/placed.h"
+#include "modules/reflections/diffuse/capture.h"
 #include "modules/reflections/materials.h"
 #include "modules/reflections/relighting/light_states.h"
 
@@ -168,6 +169,12 @@ class Bake {
       GLOAM_TRY(add_probes(probes));
     }
     GLOAM_TRY(add_proxies(proxies));
+    // The last frames, so that the captures before do not depend on them.
+    for (const ProbeToBake& probe : probes) {
+      const auto diffuse = capture_diffuse(renderer_, world_, probe.eye, captures_.light_scale);
+      if (!diffuse.ok()) return diffuse.error();
+      captures_.probe_diffuse.push_back(*diffuse);
+    }
     return std::move(captures_);
   }
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -67,6 +69,16 @@ struct CapturedParts {
   float unlit = 0.0f;  ///< mean luminance of the other part, cd/m²
 };
 
+/// Terms of diffuse light: spherical harmonics of order 2.
+inline constexpr std::size_t kDiffuseTerms = 9;
+
+/// Diffuse light of a probe: terms of the mean radiance of the hemisphere around a normal, cd/m² (diffuse_value()). It
+/// has the light of lamps and emission that has met one surface, and the sky as the probe sees it.
+struct ProbeDiffuse {
+  std::array<vec3, kDiffuseTerms> lamps{};  ///< the part that lamps cause
+  std::array<vec3, kDiffuseTerms> unlit{};  ///< the rest
+};
+
 /// Images of all proxies and probes of a world under its default lights: a world resource, made by bake_reflections()
 /// or read from a cache. Without it (`content` 0) reflections use screen space and the sky only.
 struct ReflectionCaptures {
@@ -85,10 +97,11 @@ struct ReflectionCaptures {
   /// world: the middle of the image looks up (+Y), its corners look down. Mip m is prefiltered for roughness
   /// m / (mips − 1).
   CapturedLayers probes;
-  std::vector<Entity> probe_entities;      ///< of each layer; entities with CubeProbe, by entity index
-  std::vector<CapturedParts> probe_parts;  ///< of each layer; empty: one without parts for all
-  std::vector<CapturedLightState> lights;  ///< all lights of the world, by entity index
-  std::uint64_t version = 0;               ///< changes whenever another set of captures is put into the world
+  std::vector<Entity> probe_entities;       ///< of each layer; entities with CubeProbe, by entity index
+  std::vector<CapturedParts> probe_parts;   ///< of each layer; empty: one without parts for all
+  std::vector<ProbeDiffuse> probe_diffuse;  ///< of each probe; empty: none
+  std::vector<CapturedLightState> lights;   ///< all lights of the world, by entity index
+  std::uint64_t version = 0;                ///< changes whenever another set of captures is put into the world
 };
 
 }  // namespace gloam

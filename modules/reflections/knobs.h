@@ -18,6 +18,17 @@ struct ReflectionTiers {
   bool operator==(const ReflectionTiers&) const = default;
 };
 
+enum class IndirectSource : std::uint8_t { sky, probes };
+[[nodiscard]] constexpr std::string_view name_of(IndirectSource source) {
+  switch (source) {
+    case IndirectSource::sky:
+      return "sky";
+    case IndirectSource::probes:
+      return "probes";
+  }
+  return {};
+}
+
 /// Current values of the module's knobs.
 struct ReflectionKnobs {
   enum class Mode : std::uint8_t { tiers, planar, off };
@@ -207,6 +218,14 @@ inline constexpr ChoiceKnob<bool> kNaiveProxyLoop{
     .exact = true,
     .same_picture = true,
     .only_with = "reflections.tiers=ibr+cube|all"};
+
+inline constexpr EnumKnob<IndirectSource> kIndirectLight{
+    .name = "lighting.indirect",
+    .meaning =
+        "light that surfaces get from their surroundings: that of sky and ground, seen from everywhere (sky), or that "
+        "of "
+        "lit surfaces and the sky as the scene's cube probes see them, with sky and ground beyond the probes (probes)",
+    .only_with = "reflections.mode=tiers|planar"};
 
 void add_reflection_knobs(KnobRegistry& registry);
 [[nodiscard]] ReflectionKnobs reflection_knobs(const KnobRegistry& registry);

@@ -21,6 +21,7 @@
 #include "modules/reflections/debug/pick.h"
 #include "modules/reflections/debug/unseen.h"
 #include "modules/reflections/debug/visualizers.h"
+#include "modules/reflections/diffuse/indirect_light.h"
 #include "modules/reflections/frame.h"
 #include "modules/reflections/knobs.h"
 #include "modules/reflections/materials.h"
@@ -32,6 +33,7 @@
 #include "modules/reflections/proxies/systems.h"
 #include "modules/reflections/recapture/recapture.h"
 #include "modules/reflections/reference/adapter.h"
+#include "modules/reflections/reference/indirect_tracing.h"
 #include "modules/reflections/reflection_passes.h"
 #include "modules/reflections/relighting/capture_factors.h"
 #include "modules/reflections/scene_unit.h"
@@ -130,6 +132,7 @@ class ReflectionsModule final : public Module {
           kSsrFullResolution.name, kSsrHierarchical.name, kProxyLayers.name, kProxySort.name,
           kReflectionRecapture.name})
       references.push_back(traced_reflections(std::string(knob), false, &traced_extras));
+    references.push_back(traced_indirect(std::string(kIndirectLight.name)));
     return references;
   }
   [[nodiscard]] std::vector<std::string> warnings(const World& world) const override { return unseen_captures(world); }
@@ -167,14 +170,25 @@ class ReflectionsModule final : public Module {
     add_recapture_view(world, main, state, companions);
   }
   [[nodiscard]] bool shows_surfaces(const World&, const RenderView&) const override { return false; }
-  [[nodiscard]] std::string switched_off(const World&, const KnobRegistry& knobs) const override {
-    return reflection_knobs(knobs).mode == ReflectionKnobs::Mode::off ? "reflections.mode=off" : "";
+  [[nodiscard]] std::string switched_off(const World& world, const KnobRegistry& knobs) const override {
+    if (reflection_knobs(knobs).mode == ReflectionKnobs::Mode::off) return "reflections.mode=off";
+    const bool diffuse =
+        knobs.value(kIndirectLight) == IndirectSource::probes || world.try_resource<TracedIndirect>() != nullptr;
+    if (!diffuse && !reflective_demand(world, nullptr).needed && has_diffuse_light(world))
+      return "lighting.indirect=sky, and nothing reflects";
+    return "";
   }
   /// Proxies and probes alone demand nothing: only reflective materials show them.
   [[nodiscard]] Demand demand(const World& world, const RenderView* view) const override {
     if (view != nullptr && view->purpose == ViewPurpose::capture &&
         world.resource<ReflectionCaptures>().probe_entities.empty())
       return {false, "captures reflect captured probes only"};
+    if (view != nullptr && !sees_surfaces(world, *view)) return {false, "only sky in view"};
+    Demand demand = reflective_demand(world, view);
+    if (!demand.needed && has_diffuse_light(world)) return {true, "probes with diffuse light, " + demand.reason};
+    return demand;
+  }
+  [[nodiscard]] static Demand reflective_demand(const World& world, const RenderView* view) {
     const ReflectiveMaterials materials = count_reflective(world.resource<SceneAssets>());
     const auto count = [](std::size_t number, const char* one, const char* many) {
       return std::to_string(number) + (number == 1 ? one : many);
@@ -198,7 +212,10 @@ class ReflectionsModule final : public Module {
       list_reflection_pipelines(wanted, device.threads_in_turn, last_blended_, last_probes_, list);
   }
   void add_passes(FrameBuilder& frame, PassPhase phase) override {
-    if (phase == PassPhase::announce) announce(frame);
+    if (phase == PassPhase::announce) {
+      announce_indirect_light(frame, staging_, factors_of(frame.world()));
+      announce(frame);
+    }
     if (phase == PassPhase::lists) add_reflection_list_passes(frame);
     if (phase == PassPhase::shading) add_reflection_passes(frame, staging_, factors_of(frame.world()));
     if (phase == PassPhase::shading) last_blended_ = frame.find<BlendedLayer>() != nullptr;

@@ -15,9 +15,8 @@ enum class ReflectionOverride : std::uint8_t {
   no_specular,  ///< adds nothing: the frame lacks exactly occlusion · specular_ambient() and all reflections
 };
 
-/// Reflected radiance of a view's pixels, traced. As a world resource it takes the place of the radiance that the tiers
-/// give, so that the frame differs in nothing else.
-struct TracedReflections {
+/// Traced radiance of a view's pixels.
+struct TracedPixels {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
   std::uint32_t samples = 0;    ///< rays per pixel
@@ -26,5 +25,13 @@ struct TracedReflections {
 
   [[nodiscard]] std::size_t pixels() const { return std::size_t{width} * height; }
 };
+
+/// Reflected radiance, traced. As a world resource it takes the place of the radiance that the tiers give, so that the
+/// frame differs in nothing else.
+struct TracedReflections : TracedPixels {};
+
+/// Mean radiance of the hemisphere around each pixel's normal, weighted by the cosine, traced. As a world resource it
+/// takes the place of IndirectLight::probes, or of sky and ground, on opaque surfaces.
+struct TracedIndirect : TracedPixels {};
 
 }  // namespace gloam

@@ -60,9 +60,8 @@ vec3 far_radiance(ShadingPoint p, vec3 around, float roughness) {
   return light * surroundings.fog_through + surroundings.fog_light;
 }
 
-// The specular ambient term, before occlusion: radiance toward the eye.
-vec3 specular_surroundings(ShadingPoint p, float roughness, float reflectivity) {
-  vec3 around = mirrored_radiance(environment, p, roughness);
+// The specular ambient term, before occlusion: radiance toward the eye. around: mirrored_radiance().
+vec3 specular_surroundings(ShadingPoint p, float roughness, float reflectivity, vec3 around) {
   return specular_share(p, roughness) * mix(around, far_radiance(p, around, roughness), reflectivity);
 }
 

@@ -43,7 +43,7 @@ ROOMS = {
                         ("components", "outputs", "knobs", "reference")),
     "modules/closeups": (("umbra", "pairs", "compose", "debug"), ("components", "knobs")),
     "modules/lighting": (("antialiasing", "display", "reference"), ("components", "outputs", "knobs", "environment", "lighting_passes")),
-    "modules/reflections": (("culling", "relighting", "proxies", "planar", "probes", "passes", "fitting", "bake", "recapture", "reference", "debug"),
+    "modules/reflections": (("culling", "relighting", "proxies", "planar", "probes", "passes", "fitting", "bake", "diffuse", "recapture", "reference", "debug"),
                             ("components", "captures", "bake", "override", "knobs", "frame", "bindings", "materials", "scene_unit")),
     "modules/grass": (("growth", "field", "lod", "simulation", "drawing", "reference", "debug"), ("components", "knobs", "frame")),
     "modules/particles": (("emitters", "bake", "simulation", "sorting", "lighting", "drawing", "reference", "debug"),

@@ -122,7 +122,7 @@ std::vector<Entity> read_entities(ByteReader& bytes, const std::vector<Entity>& 
 
 std::string identity_of(std::uint64_t content) {
   char text[48];
-  std::snprintf(text, sizeof(text), "reflection captures 3 %016llx", static_cast<unsigned long long>(content));
+  std::snprintf(text, sizeof(text), "reflection captures 4 %016llx", static_cast<unsigned long long>(content));
   return text;
 }
 
@@ -142,6 +142,8 @@ std::string encode_captures(const World& world, const ReflectionCaptures& captur
   bytes.value(static_cast<std::uint32_t>(captures.probe_entities.size()));
   for (const Entity probe : captures.probe_entities) bytes.value(position_of(probes, probe));
   write_parts(bytes, captures.probe_parts);
+  bytes.value(static_cast<std::uint32_t>(captures.probe_diffuse.size()));
+  bytes.items(std::span<const ProbeDiffuse>(captures.probe_diffuse));
   bytes.value(static_cast<std::uint32_t>(captures.proxy_lights.size()));
   for (const CapturedProxyLight& light : captures.proxy_lights) {
     bytes.value(light.layer);
@@ -170,6 +172,8 @@ std::optional<ReflectionCaptures> decode_captures(const World& world, std::strin
   captures.probes = read_layers(bytes);
   captures.probe_entities = read_entities(bytes, probes, captures.probes.count);
   captures.probe_parts = read_parts(bytes, captures.probe_entities.size(), captures.probes.count);
+  captures.probe_diffuse = bytes.items<ProbeDiffuse>(bytes.count(sizeof(ProbeDiffuse)));
+  bytes.require(captures.probe_diffuse.empty() || captures.probe_diffuse.size() == captures.probe_entities.size());
   const std::uint32_t proxy_lights = bytes.count(12);
   for (std::uint32_t i = 0; i < proxy_lights && bytes.ok(); ++i) {
     CapturedProxyLight& light = captures.proxy_lights.emplace_back();

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "engine/render/readback/geometry_picture.h"
+#include "modules/lighting/outputs.h"
 #include "modules/reflections/bake/capture_view.h"
 #include "modules/reflections/bake/probe_map.h"
 #include "modules/reflections/relighting/light_states.h"
@@ -167,6 +168,8 @@ std::array<ViewRequest, 6> face_views(const dvec3& eye, std::uint32_t side, doub
 Result<std::array<CapturedPicture, 6>> draw_cube_faces(Renderer& renderer, World& world, const dvec3& eye,
                                                        std::uint32_t side, float light_scale, CapturedLamps lamps) {
   std::array<ViewRequest, 6> requests = face_views(eye, side, scene_unit(world));
+  if (world.try_resource<SurroundingsLeftOut>() != nullptr)
+    for (ViewRequest& request : requests) request.settings.without.emplace_back("reflections");
   if (lamps == CapturedLamps::left_out)
     for (ViewRequest& request : requests) leave_lights_out(request.settings);
   GLOAM_TRY(renderer.render(world, requests));

@@ -59,6 +59,7 @@ class CapturedCube {
 enum class CapturedLamps : std::uint8_t { on, left_out };
 
 /// Draws the static scene around `eye`. side: pixels of a face's sides, a power of two. light_scale: of the captures.
+/// With SurroundingsLeftOut in the world, surfaces reflect no surroundings either.
 [[nodiscard]] Result<std::array<CapturedPicture, 6>> draw_cube_faces(Renderer& renderer, World& world, const dvec3& eye,
                                                                      std::uint32_t side, float light_scale,
                                                                      CapturedLamps lamps);

@@ -13,6 +13,7 @@
 #include "modules/reflections/culling/tiles.h"
 #include "modules/reflections/frame.h"
 #include "modules/reflections/knobs.h"
+#include "modules/reflections/reference/indirect_tracing.h"
 #include "shaders/reflections/shaders.h"
 
 namespace gloam {
@@ -21,6 +22,7 @@ namespace {
 constexpr const char* kReflectionViews[] = {"reflection_tier", "reflection_confidence", "ibr_tiles", "ibr_layers",
                                             "probes"};
 constexpr const char* kTracedView = "reflection_reference";
+constexpr const char* kIndirectView = "indirect_reference";
 
 }  // namespace
 
@@ -41,14 +43,17 @@ std::vector<VisualizerInfo> reflection_visualizers(const ExtrasOf& extras) {
     if (view.name == "ibr_tiles") view.heat = {31.0};
     if (view.name == "ibr_layers") view.heat = {5.0};
   }
-  views.back().trace = [extras](World& world, const ReferenceInput& input) {
+  views.push_back({kIndirectView, "reflections", "",
+                   "the picture with light that one diffuse bounce brings, traced, in place of lighting.indirect"});
+  views.back().trace = &put_traced_indirect;
+  views[views.size() - 2].trace = [extras](World& world, const ReferenceInput& input) {
     return put_traced_reflections(world, input, extras);
   };
   return views;
 }
 
 void announce_reflection_view(FrameBuilder& frame) {
-  if (frame.visualizer() == kTracedView) frame.put(VisualizerIsPicture{});
+  if (frame.visualizer() == kTracedView || frame.visualizer() == kIndirectView) frame.put(VisualizerIsPicture{});
 }
 
 void add_reflection_view_pass(FrameBuilder& frame) {

@@ -41,13 +41,13 @@ ImageRef upload_captures(FrameBuilder& frame, Staging& staging, const char* name
   return written;
 }
 
-ImageRef upload_traced(FrameBuilder& frame, Staging& staging, const TracedReflections& traced) {
+ImageRef upload_traced(FrameBuilder& frame, Staging& staging, const char* name, const TracedPixels& traced) {
   const auto slice = staging.ring(frame.services().device).allocate(traced.radiance.size() * sizeof(float));
   if (!frame.check(slice)) return {};
   std::memcpy(slice->bytes.data(), traced.radiance.data(), slice->bytes.size());
-  PassBuilder pass = frame.graph().add_pass("reflection_traced_upload", frame.module());
+  PassBuilder pass = frame.graph().add_pass(std::string(name) + "_upload", frame.module());
   const ImageRef written =
-      pass.write(create_view_image(frame, "reflection_traced", gpu::Format::rgba32_float), gpu::Access::transfer_write);
+      pass.write(create_view_image(frame, name, gpu::Format::rgba32_float), gpu::Access::transfer_write);
   pass.execute([written, source = *slice](PassContext& context) {
     context.commands().copy_buffer_to_image(source.buffer, source.offset, context.image(written), 0, 0, 1);
   });

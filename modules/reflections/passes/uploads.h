@@ -18,6 +18,7 @@ namespace gloam {
                                        const CapturedLayers& layers, std::uint64_t version, bool* uploaded = nullptr);
 
 /// The traced radiance as an rgba32f image of the view's size.
-[[nodiscard]] ImageRef upload_traced(FrameBuilder& frame, Staging& staging, const TracedReflections& traced);
+[[nodiscard]] ImageRef upload_traced(FrameBuilder& frame, Staging& staging, const char* name,
+                                     const TracedPixels& traced);
 
 }  // namespace gloam

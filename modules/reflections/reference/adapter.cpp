@@ -22,7 +22,7 @@ Error cannot_redraw() { return {ErrorKind::usage, "traced reflections need a fra
 
 }  // namespace
 
-std::string to_bytes(const TracedReflections& traced) {
+std::string to_bytes(const TracedPixels& traced) {
   const StoredHeader header = {
       .width = traced.width, .height = traced.height, .samples = traced.samples, .version = traced.version};
   std::string bytes(reinterpret_cast<const char*>(&header), sizeof(header));

@@ -17,7 +17,7 @@
 namespace gloam {
 
 /// Serialisation for files of the reference store. reflections_from_bytes: none when the bytes are damaged.
-[[nodiscard]] std::string to_bytes(const TracedReflections& traced);
+[[nodiscard]] std::string to_bytes(const TracedPixels& traced);
 [[nodiscard]] std::optional<TracedReflections> reflections_from_bytes(std::string_view bytes);
 
 /// The reflected radiance of the input's frame: from the input's store, or traced and then stored. The input's samples

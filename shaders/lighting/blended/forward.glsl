@@ -16,12 +16,17 @@ layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
 #include "shaders/lighting/forward_lights_api.glsl"
 #define GLOAM_SURROUNDINGS_BINDING 24
 #include "shaders/lighting/surroundings_api.glsl"
+#define GLOAM_INDIRECT_BINDING 28
+#include "shaders/lighting/indirect_api.glsl"
 
 layout(location = 0) out vec4 out_light;
 
 vec3 surrounding_light(ShadingPoint p, Surface s) {
-  if (kReflects == 0u) return ambient(environment, p, s.roughness, s.occlusion);
-  return s.occlusion * (diffuse_ambient(environment, p) + specular_surroundings(p, s.roughness, s.reflectivity));
+  SurroundingLight around = surrounding_light(p.position, p.normal);
+  vec3 mirrored = mirrored_surroundings(p, s.roughness, around);
+  vec3 specular = kReflects == 0u ? specular_share(p, s.roughness) * mirrored
+                                  : specular_surroundings(p, s.roughness, s.reflectivity, mirrored);
+  return s.occlusion * (diffuse_surroundings(p, around) + specular);
 }
 
 void main() {

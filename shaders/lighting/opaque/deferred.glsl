@@ -15,6 +15,7 @@
 layout(constant_id = 1) const uint kDirectionalLights = 0u;  // a constant of the pipeline, so that the loop is unrolled
 layout(constant_id = 3) const uint kSpecularAmbient = 1u;    // 0: without it; 2: with far_image
 layout(constant_id = 4) const uint kDiffuseLight = 0u;       // 1: with the second target
+layout(constant_id = 32) const uint kTracedIndirect = 0u;    // 1: with traced_indirect, for references
 
 layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
 layout(set = 0, binding = 1, scalar) uniform Lights { LightBlock lights; };
@@ -25,7 +26,10 @@ layout(set = 0, binding = 5) uniform sampler2D material_image;
 layout(set = 0, binding = 6) uniform sampler2D emissive_image;
 layout(set = 0, binding = 7) uniform sampler2D depth_image;
 layout(set = 0, binding = 8) uniform sampler2D light_texels;
-layout(set = 0, binding = 23) uniform sampler2D far_image;  // SurroundingsOutput
+layout(set = 0, binding = 23) uniform sampler2D far_image;        // SurroundingsOutput
+layout(set = 0, binding = 26) uniform sampler2D traced_indirect;  // IndirectLight::traced
+#define GLOAM_INDIRECT_BINDING 24
+#include "shaders/lighting/indirect_api.glsl"
 
 layout(location = 0) out vec4 out_light;
 layout(location = 1) out vec4 out_diffuse_light;  // lux
@@ -82,18 +86,22 @@ vec3 directional_lights(ShadingPoint p, uvec2 pixel) {
 #endif
 
 // The specular ambient term of surfaces that reflect weakly; that of others is added after the pass.
-vec3 weak_reflection(ShadingPoint p, ivec2 pixel, GBufferTexel g) {
-  vec3 around = mirrored_radiance(environment, p, g.roughness);
+vec3 weak_reflection(ShadingPoint p, ivec2 pixel, GBufferTexel g, vec3 around) {
   vec3 far = texelFetch(far_image, pixel * textureSize(far_image, 0) / ivec2(view.size), 0).rgb;
   vec3 light = specular_share(p, g.roughness) * mix(around, far, g.reflectivity);
   return reflects_strongly(g.roughness, g.reflectivity) ? vec3(0.0) : light;
 }
 
 vec3 ambient_light(ShadingPoint p, ivec2 pixel, GBufferTexel g) {
-  if (kDiffuseLight != 0u) diffuse_light += (kPi * g.occlusion) * hemisphere_radiance(environment, p.normal);
-  vec3 light = diffuse_ambient(environment, p);
-  if (kSpecularAmbient == 2u) light += weak_reflection(p, pixel, g);
-  return kSpecularAmbient == 1u ? ambient(environment, p, g.roughness, g.occlusion) : g.occlusion * light;
+  SurroundingLight around = surrounding_light(p.position, p.normal);
+  if (kTracedIndirect != 0u)
+    around = SurroundingLight(texelFetch(traced_indirect, pixel, 0).rgb * view.light_scale, 1.0);
+  if (kDiffuseLight != 0u) diffuse_light += (kPi * g.occlusion) * around.radiance;
+  vec3 light = diffuse_surroundings(p, around);
+  vec3 mirrored = mirrored_surroundings(p, g.roughness, around);
+  if (kSpecularAmbient == 1u) light += specular_share(p, g.roughness) * mirrored;
+  if (kSpecularAmbient == 2u) light += weak_reflection(p, pixel, g, mirrored);
+  return g.occlusion * light;
 }
 
 void main() {

@@ -30,7 +30,8 @@ vec3 light_along(ivec2 pixel, vec3 direction) {
     ShadingPoint p = shading_point(position, -direction, g.normal, g.base_color, g.metallic, g.roughness);
     vec4 ambient = texelFetch(ambient_image, pixel, 0);  // toward the camera
     if (ambient.a == 0.0) seen = max(seen - ambient.rgb, vec3(0.0));
-    seen += g.occlusion * specular_surroundings(p, g.roughness, g.reflectivity);
+    seen += g.occlusion *
+            specular_surroundings(p, g.roughness, g.reflectivity, mirrored_radiance(environment, p, g.roughness));
   }
   return clean(seen);
 }

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "engine/ecs/world.h"
+#include "engine/frame/transfers/staging.h"
+#include "engine/render/frame_builder.h"
+#include "engine/render/view.h"
+#include "modules/lighting/outputs.h"
+#include "modules/reflections/captures.h"
+#include "modules/reflections/relighting/capture_factors.h"
+
+namespace gloam {
+
+/// Diffuse light of all captured probes with a box of positive, finite size, from the smallest volume to the largest,
+/// then the global one. factors, cells: of CaptureFactors; empty: lamps are as captured. A probe has one factor: the
+/// mean over the cells of its map, weighted by the lamps' illuminance at capture.
+[[nodiscard]] std::vector<shaders::DiffuseProbe> diffuse_probes(const World& world, const RenderView& view,
+                                                                const ReflectionCaptures& captures,
+                                                                std::span<const CaptureFactor> factors = {},
+                                                                std::span<const vec4> cells = {});
+
+/// Whether a frame of the world may show diffuse light that was captured, or traced.
+[[nodiscard]] bool has_diffuse_light(const World& world);
+
+/// Puts IndirectLight on the board, with lighting.indirect=probes or a TracedIndirect of the view's size. Captures have
+/// none: they show the light that they were baked in.
+void announce_indirect_light(FrameBuilder& frame, Staging& staging, CaptureFactors& factors);
+
+}  // namespace gloam
