@@ -45,7 +45,6 @@ void add_diffuse_probe(inout SurroundingLight sum, DiffuseProbe probe, vec3 posi
 // normal: unit length.
 SurroundingLight surrounding_light(vec3 position, vec3 normal) {
   vec3 beyond = hemisphere_radiance(environment, normal);
-  if (kIndirect == 0u) return SurroundingLight(beyond, 0.0);
   SurroundingLight sum = SurroundingLight(vec3(0.0), 0.0);
   // Not a loop: rows at constant places of a uniform are read once, not by each thread.
   if (kIndirect > 1u) add_diffuse_probe(sum, indirect.few_probes[0], position, normal);
@@ -56,7 +55,7 @@ SurroundingLight surrounding_light(vec3 position, vec3 normal) {
   if (kIndirect > 6u) add_diffuse_probe(sum, indirect.few_probes[5], position, normal);
   if (kIndirect > 7u)
     for (uint i = 6u; i < indirect.probes; ++i) add_diffuse_probe(sum, diffuse_probes[i], position, normal);
-  sum.radiance += (1.0 - sum.covered) * beyond;
+  sum.radiance = kIndirect == 0u ? beyond : sum.radiance + (1.0 - sum.covered) * beyond;
   return sum;
 }
 
