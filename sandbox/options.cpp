@@ -168,6 +168,11 @@ std::vector<CommandApp> add_commands(CLI::App& root, Options& options, RawTexts&
   bake->add_option("--fit-proxies", options.fit_proxies,
                    "Fit at most N proxies to the scene and write them as glTF nodes (default out/<scene>.proxies.json)")
       ->type_name("N");
+  bake->add_option("--probes", options.grid_probes,
+                   "Capture diffuse light at up to N places in a grid, too, for lighting.indirect=probes in a scene "
+                   "without probes (1 to 256)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 256));
   bake->add_flag("--beside", options.beside, "Write the captures beside the scene file, not to the cache");
   add_cost_options(*add(Command::cost, "cost", "Measure error and time of each knob's values"), options, raw);
   CLI::App* bench = add(Command::bench, "bench", "Run benchmarks: the papers' tables and the CPU systems");

@@ -73,6 +73,7 @@ struct Options {
   bool json = false;               ///< inspect, knobs
   bool markdown = false;           ///< knobs, selftest
   std::uint32_t fit_proxies = 0;   ///< bake
+  std::uint32_t grid_probes = 0;   ///< bake
   bool beside = false;             ///< bake: write the captures beside the scene file
   std::string knobs;               ///< cost: comma-separated
   bool quick = false;              ///< cost, selftest

@@ -30,8 +30,11 @@
 #include "modules/reflections/components.h"
 #include "modules/reflections/culling/placed.h"
 #include "modules/reflections/diffuse/capture.h"
+#include "modules/reflections/diffuse/grid.h"
+#include "modules/reflections/diffuse/indirect_light.h"
 #include "modules/reflections/materials.h"
 #include "modules/reflections/relighting/light_states.h"
+#include "modules/reflections/scene_unit.h"
 
 namespace gloam {
 namespace {
@@ -150,7 +153,13 @@ class Bake {
     sources_ = light_sources(world_);
     const ReflectiveMaterials materials = count_reflective(world_.resource<SceneAssets>());
     const bool shows_probes = !probes.empty() && materials.mirror + materials.rough > 0;
-    total_ = proxies.size() + probes.size();
+    std::vector<GridCell> cells;
+    if (settings_.grid_probes > 0) {
+      const auto tracer = settings_.make_tracer(world_);
+      if (!tracer.ok()) return tracer.error();
+      cells = open_cells(occupied_cells(triangle_bounds(world_), settings_.grid_probes, scene_unit(world_)), **tracer);
+    }
+    total_ = proxies.size() + probes.size() + cells.size();
     captures_.content = capture_content(world_);
     captures_.light_scale = light_scale(scene_brightness(world_));
     captures_.lights = light_states(world_);
@@ -175,6 +184,7 @@ class Bake {
       if (!diffuse.ok()) return diffuse.error();
       captures_.probe_diffuse.push_back(*diffuse);
     }
+    GLOAM_TRY(add_grid(cells));
     return std::move(captures_);
   }
 
@@ -249,6 +259,17 @@ class Bake {
     captures_.proxy_parts.emplace_back();
     append_mip_chain(std::move(picture), captures_.proxies.texels);
     tell_progress();
+  }
+
+  [[nodiscard]] Status add_grid(const std::vector<GridCell>& cells) {
+    for (const GridCell& cell : cells) {
+      const auto diffuse = capture_diffuse(renderer_, world_, cell.eye, captures_.light_scale);
+      if (!diffuse.ok()) return diffuse.error();
+      captures_.grid.push_back(
+          {cell.center, vec3(cell.half), surrounding_lux(captures_.lights, cell.center), *diffuse});
+      tell_progress();
+    }
+    return {};
   }
 
   [[nodiscard]] Status add_probes(const std::vector<ProbeToBake>& probes) {

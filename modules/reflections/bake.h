@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,6 +14,7 @@
 #include "engine/core/result.h"
 #include "engine/ecs/world.h"
 #include "engine/jobs/executor.h"
+#include "engine/render/reference/scene_tracer.h"
 #include "engine/render/renderer.h"
 #include "modules/reflections/captures.h"
 
@@ -25,6 +27,10 @@ struct BakeSettings {
   JobExecutor* executor = nullptr;  ///< must be set
   BakeProgress progress;            ///< may be empty
   std::uint32_t proxy_side = 128;   ///< texels of a proxy's image, a power of two
+  std::uint32_t grid_probes = 0;    ///< most probes of a grid for diffuse light (ReflectionCaptures::grid)
+  /// Triangles of the world as its systems left them; must be set if grid_probes > 0. It tells which places lie inside
+  /// walls.
+  std::function<Result<std::unique_ptr<SceneTracer>>(const World& world)> make_tracer = {};
 };
 
 /// Captures all proxies and probes of the world, in its pose at the SceneClock's time: runs the scene systems, then

@@ -79,6 +79,14 @@ struct ProbeDiffuse {
   std::array<vec3, kDiffuseTerms> unlit{};  ///< the rest
 };
 
+/// A place of a grid at which diffuse light was captured, for scenes without probes.
+struct GridProbe {
+  dvec3 center = dvec3(0.0);    ///< of its cell, world
+  vec3 half = vec3(0.0f);       ///< of its cell, along the world's axes
+  vec3 lamps_lux = vec3(0.0f);  ///< illuminance by lamps at capture, without shadows, from all sides together
+  ProbeDiffuse diffuse;
+};
+
 /// Images of all proxies and probes of a world under its default lights: a world resource, made by bake_reflections()
 /// or read from a cache. Without it (`content` 0) reflections use screen space and the sky only.
 struct ReflectionCaptures {
@@ -100,6 +108,7 @@ struct ReflectionCaptures {
   std::vector<Entity> probe_entities;       ///< of each layer; entities with CubeProbe, by entity index
   std::vector<CapturedParts> probe_parts;   ///< of each layer; empty: one without parts for all
   std::vector<ProbeDiffuse> probe_diffuse;  ///< of each probe; empty: none
+  std::vector<GridProbe> grid;              ///< in the order of its cells; empty: none was baked
   std::vector<CapturedLightState> lights;   ///< all lights of the world, by entity index
   std::uint64_t version = 0;                ///< changes whenever another set of captures is put into the world
 };

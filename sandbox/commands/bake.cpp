@@ -63,6 +63,7 @@ std::string summary_of(const ReflectionCaptures& captures, double seconds) {
   };
   return kind(captures.proxy_entities.size(), captures.proxies.side, "proxy", "proxies") + ", " +
          kind(captures.probe_entities.size(), captures.probes.side, "probe", "probes") +
+         (captures.grid.empty() ? "" : ", " + count_of(captures.grid.size(), "probe", "probes") + " of a grid") +
          formatted(" captured in %.1f s\n", seconds);
 }
 
@@ -94,7 +95,7 @@ Status run_bake(const CommandContext& context) {
     GLOAM_TRY(
         write_layers(captures->probes, captures->light_scale, captures->probe_entities, world, "probe", options.out));
   }
-  if (captures->proxies.count + captures->probes.count == 0) {
+  if (captures->proxies.count + captures->probes.count + captures->grid.size() == 0) {
     if (!options.quiet) context.console.print("the scene has no proxy and no probe: there is nothing to capture\n");
     return {};
   }

@@ -91,6 +91,23 @@ std::vector<CapturedParts> read_parts(ByteReader& bytes, std::size_t entities, s
   return parts;
 }
 
+void write_grid_probe(ByteWriter& bytes, const GridProbe& probe) {
+  for (int axis = 0; axis < 3; ++axis) bytes.value(probe.center[axis]);
+  for (const vec3* vector : {&probe.half, &probe.lamps_lux})
+    for (int axis = 0; axis < 3; ++axis) bytes.value((*vector)[axis]);
+  bytes.items(std::span(&probe.diffuse, 1));
+}
+
+GridProbe read_grid_probe(ByteReader& bytes) {
+  GridProbe probe;
+  for (int axis = 0; axis < 3; ++axis) probe.center[axis] = bytes.value<double>();
+  for (vec3* vector : {&probe.half, &probe.lamps_lux})
+    for (int axis = 0; axis < 3; ++axis) (*vector)[axis] = bytes.value<float>();
+  const std::vector<ProbeDiffuse> diffuse = bytes.items<ProbeDiffuse>(1);
+  if (!diffuse.empty()) probe.diffuse = diffuse.front();
+  return probe;
+}
+
 void write_light(ByteWriter& bytes, const CapturedLightState& light) {
   for (int channel = 0; channel < 3; ++channel) bytes.value(light.emitted[channel]);
   bytes.value(static_cast<std::uint32_t>(light.kind));
@@ -144,6 +161,8 @@ std::string encode_captures(const World& world, const ReflectionCaptures& captur
   write_parts(bytes, captures.probe_parts);
   bytes.value(static_cast<std::uint32_t>(captures.probe_diffuse.size()));
   bytes.items(std::span<const ProbeDiffuse>(captures.probe_diffuse));
+  bytes.value(static_cast<std::uint32_t>(captures.grid.size()));
+  for (const GridProbe& probe : captures.grid) write_grid_probe(bytes, probe);
   bytes.value(static_cast<std::uint32_t>(captures.proxy_lights.size()));
   for (const CapturedProxyLight& light : captures.proxy_lights) {
     bytes.value(light.layer);
@@ -174,6 +193,8 @@ std::optional<ReflectionCaptures> decode_captures(const World& world, std::strin
   captures.probe_parts = read_parts(bytes, captures.probe_entities.size(), captures.probes.count);
   captures.probe_diffuse = bytes.items<ProbeDiffuse>(bytes.count(sizeof(ProbeDiffuse)));
   bytes.require(captures.probe_diffuse.empty() || captures.probe_diffuse.size() == captures.probe_entities.size());
+  captures.grid.resize(bytes.count(sizeof(ProbeDiffuse)));
+  for (GridProbe& probe : captures.grid) probe = read_grid_probe(bytes);
   const std::uint32_t proxy_lights = bytes.count(12);
   for (std::uint32_t i = 0; i < proxy_lights && bytes.ok(); ++i) {
     CapturedProxyLight& light = captures.proxy_lights.emplace_back();

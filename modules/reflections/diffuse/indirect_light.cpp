@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "modules/reflections/diffuse/indirect_light.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -37,6 +38,51 @@ vec3 lamp_factor(const ReflectionCaptures& captures, std::size_t layer, std::spa
   return mean;
 }
 
+void set_terms(shaders::DiffuseProbe& probe, const ProbeDiffuse& diffuse, const vec3& lamp_factor, float scale) {
+  for (std::size_t k = 0; k < kDiffuseTerms; ++k)
+    probe.terms[k] = vec4(scale * (diffuse.unlit[k] + lamp_factor * diffuse.lamps[k]), 0.0f);
+}
+
+shaders::ProbeRow upright_row(const RenderView& view, const dvec3& center, const dvec3& half, float fade) {
+  shaders::ProbeRow row{};
+  row.center = view.relative(center);
+  row.to_x.x = static_cast<float>(1.0 / half.x);
+  row.to_y.y = static_cast<float>(1.0 / half.y);
+  row.to_z.z = static_cast<float>(1.0 / half.z);
+  row.fade = fade;
+  row.emission = row.factor = -1.0f;
+  return row;
+}
+
+/// The grid's cells, and a box around all of them with their mean.
+std::vector<shaders::DiffuseProbe> grid_probes(const World& world, const RenderView& view,
+                                               const ReflectionCaptures& captures, bool follow) {
+  constexpr double kBeyond = 1.5;  // of a cell's half size
+  constexpr auto kFade = static_cast<float>(1.0 - 1.0 / kBeyond);
+  std::vector<shaders::DiffuseProbe> probes;
+  if (captures.grid.empty()) return probes;
+  const std::vector<CapturedLightState> now = follow ? light_states(world) : captures.lights;
+  const bool changed = now != captures.lights;
+  dvec3 least(captures.grid.front().center), most(least);
+  shaders::DiffuseProbe mean{};
+  for (const GridProbe& cell : captures.grid) {
+    vec3 factor(1.0f);
+    const vec3 lux = changed ? surrounding_lux(now, cell.center) : cell.lamps_lux;
+    for (int c = 0; c < 3; ++c)
+      if (cell.lamps_lux[c] > 0.0f) factor[c] = std::min(lux[c] / cell.lamps_lux[c], kMostCaptureFactor);
+    shaders::DiffuseProbe& probe = probes.emplace_back();
+    probe.row = upright_row(view, cell.center, kBeyond * dvec3(cell.half), kFade);
+    set_terms(probe, cell.diffuse, factor, view.light_scale);
+    for (std::size_t k = 0; k < kDiffuseTerms; ++k)
+      mean.terms[k] += probe.terms[k] / static_cast<float>(captures.grid.size());
+    least = glm::min(least, cell.center - dvec3(cell.half));
+    most = glm::max(most, cell.center + dvec3(cell.half));
+  }
+  mean.row = upright_row(view, 0.5 * (least + most), 0.5 * kBeyond * (most - least), kFade);
+  probes.push_back(mean);
+  return probes;
+}
+
 const TracedIndirect* traced_indirect_of(const World& world, const RenderView& view) {
   const auto* traced = world.try_resource<TracedIndirect>();
   const bool fits = traced != nullptr && traced->width == view.width && traced->height == view.height;
@@ -45,25 +91,50 @@ const TracedIndirect* traced_indirect_of(const World& world, const RenderView& v
 
 }  // namespace
 
+vec3 surrounding_lux(std::span<const CapturedLightState> lights, const dvec3& point) {
+  constexpr double kHalf = 1e-3;
+  std::array<LitPatch, 6> sides;
+  for (int side = 0; side < 6; ++side) {
+    const int axis = side / 2;
+    LitPatch& patch = sides[static_cast<std::size_t>(side)];
+    patch.center = point;
+    patch.normal = dvec3(0.0);
+    patch.normal[axis] = side % 2 == 0 ? 1.0 : -1.0;
+    patch.half_u[(axis + 1) % 3] = kHalf;
+    patch.half_v[(axis + 2) % 3] = kHalf;
+  }
+  vec3 sum(0.0f);
+  for (const vec3& lux : illuminances(lights, sides)) sum += lux;
+  return sum;
+}
+
 std::vector<shaders::DiffuseProbe> diffuse_probes(const World& world, const RenderView& view,
                                                   const ReflectionCaptures& captures,
                                                   std::span<const CaptureFactor> factors, std::span<const vec4> cells) {
-  std::vector<shaders::DiffuseProbe> probes;
+  const bool follow = factors.data() != nullptr;
+  std::vector<shaders::DiffuseProbe> probes, grid = grid_probes(world, view, captures, follow);
   for (const shaders::ProbeRow& row : probe_rows(world, view, captures)) {
     const auto layer = static_cast<std::size_t>(row.layer);
     if (layer >= captures.probe_diffuse.size()) continue;
     const ProbeDiffuse& diffuse = captures.probe_diffuse[layer];
     const vec3 factor = lamp_factor(captures, layer, factors, cells);
+    if (row.global > 0.0f && !grid.empty()) {
+      grid.pop_back();  // the mean
+      probes.insert(probes.end(), grid.begin(), grid.end());
+      grid.clear();
+    }
     shaders::DiffuseProbe& probe = probes.emplace_back();
     probe.row = row;
-    for (std::size_t k = 0; k < kDiffuseTerms; ++k)
-      probe.terms[k] = vec4(view.light_scale * (diffuse.unlit[k] + factor * diffuse.lamps[k]), 0.0f);
+    set_terms(probe, diffuse, factor, view.light_scale);
   }
+  probes.insert(probes.end(), grid.begin(), grid.end());
   return probes;
 }
 
 bool has_diffuse_light(const World& world) {
-  return world.view<const CubeProbe>().size() > 0 || world.try_resource<TracedIndirect>() != nullptr;
+  const auto* captures = world.try_resource<ReflectionCaptures>();
+  return world.view<const CubeProbe>().size() > 0 || (captures != nullptr && !captures->grid.empty()) ||
+         world.try_resource<TracedIndirect>() != nullptr;
 }
 
 void announce_indirect_light(FrameBuilder& frame, Staging& staging, CaptureFactors& factors) {

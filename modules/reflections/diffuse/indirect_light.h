@@ -15,9 +15,14 @@
 
 namespace gloam {
 
+/// Illuminance of a point by lights, lux, without shadows: the sum over its six sides.
+[[nodiscard]] vec3 surrounding_lux(std::span<const CapturedLightState> lights, const dvec3& point);
+
 /// Diffuse light of all captured probes with a box of positive, finite size, from the smallest volume to the largest,
-/// then the global one. factors, cells: of CaptureFactors; empty: lamps are as captured. A probe has one factor: the
-/// mean over the cells of its map, weighted by the lamps' illuminance at capture.
+/// then that of the grid's cells, which have their whole share in their cell and fade out half a cell beyond, then the
+/// global probe. Cells fade out into the mean of them all if there is no global probe. factors, cells: of
+/// CaptureFactors; empty: lamps are as captured. A probe has one factor: the mean over the cells of its map, weighted
+/// by the lamps' illuminance at capture.
 [[nodiscard]] std::vector<shaders::DiffuseProbe> diffuse_probes(const World& world, const RenderView& view,
                                                                 const ReflectionCaptures& captures,
                                                                 std::span<const CaptureFactor> factors = {},

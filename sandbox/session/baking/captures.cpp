@@ -11,6 +11,7 @@
 
 #include "engine/core/hash.h"
 #include "engine/scene/resources.h"
+#include "modules/accuracy/module.h"
 #include "modules/module_list/module_list.h"
 #include "sandbox/output/progress_bar.h"
 #include "sandbox/session/baking/particle_light.h"
@@ -23,6 +24,12 @@ bool wants_captures(const Session& session) {
   return std::ranges::any_of(session.renderer->modules(), [&](const auto& module) {
     return module->name() == "reflections" && module->demand(session.world, nullptr).needed;
   });
+}
+
+bool wants_probes(const Session& session) {
+  const KnobRegistry& knobs = session.renderer->knobs();
+  const Knob* source = knobs.find("lighting.indirect");
+  return source != nullptr && knobs.text(*source) == "probes";
 }
 
 std::optional<ReflectionCaptures> load_kept(const Session& session, const Options& options, std::uint64_t content,
@@ -62,7 +69,13 @@ Result<ReflectionCaptures> bake_scene(Session& session, const Options& options, 
                                *session.executor, null_log());
   if (!info) return info.error();
   world.resource<SceneClock>() = {.time_s = 0.0};
-  const auto captures = bake_reflections(**renderer, world, {.executor = session.executor.get(), .progress = progress});
+  JobExecutor& executor = *session.executor;
+  const auto captures = bake_reflections(
+      **renderer, world,
+      {.executor = &executor,
+       .progress = progress,
+       .grid_probes = options.grid_probes,
+       .make_tracer = [&executor](const World& traced) { return make_scene_tracer(traced, executor); }});
   const Status idle = (*renderer)->wait();
   (*renderer)->release_world(world);
   if (!captures) return captures.error();
@@ -73,12 +86,15 @@ Result<ReflectionCaptures> bake_scene(Session& session, const Options& options, 
 }
 
 Status ensure_captures(Session& session, const Options& options, LogSink& log, const BakeProgress& progress) {
-  if (!wants_captures(session)) return {};
+  const bool wanted = wants_captures(session);
+  // A grid of probes (bake --probes) may have been kept for a scene that demands no captures itself.
+  if (!wanted && !wants_probes(session)) return {};
   const std::uint64_t content = capture_content(session.world);
   if (auto kept = load_kept(session, options, content, log)) {
     attach_captures(session.world, std::move(*kept));
     return {};
   }
+  if (!wanted) return {};
   auto captures = bake_scene(session, options, log, progress);
   if (!captures) return captures.error();
   if (const std::string path = cached_captures(session, options, content); !path.empty())
