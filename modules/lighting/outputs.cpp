@@ -32,6 +32,13 @@ gpu::SpecConstants probe_constants(std::size_t rows, bool factors) {
   return {{"kProbes", probe_constant(rows)}, {"kFactors", factors ? 1u : 0u}};
 }
 
+gpu::SpecConstants indirect_constants(const FrameBuilder& frame) {
+  gpu::SpecConstants constants;
+  const IndirectLight* light = frame.find<IndirectLight>();
+  if (light != nullptr && !light->probes.empty()) constants.set("kIndirect", 1 + probe_constant(light->probes.size()));
+  return constants;
+}
+
 ForwardLighting forward_lighting(const LightsOutputs* lights, const ShadowsOutputs* shadows) {
   ForwardLighting version;
   version.tiled = lights != nullptr && lights->has_lists();
@@ -47,8 +54,7 @@ ForwardLighting forward_lighting(const FrameBuilder& frame) {
   if (lets_light_through(frame.world())) version.constants.set_if_present("kTransmission", 1u);
   if (const SurroundingProbes* probes = frame.find<SurroundingProbes>())
     version.constants.set(surroundings_constants(true, probes->rows.size()).where_present());
-  if (const IndirectLight* indirect = frame.find<IndirectLight>(); indirect != nullptr && !indirect->probes.empty())
-    version.constants.set_if_present("kIndirect", 1 + probe_constant(indirect->probes.size()));
+  version.constants.set(indirect_constants(frame).where_present());
   return version;
 }
 

@@ -181,7 +181,9 @@ struct ForwardLighting {
 /// z_bin_words; with shadows or cookies also those of read_shadows(). The program must be a version for this frame, see
 /// ForwardLighting.
 void read_lighting(ShaderPass& pass, FrameBuilder& frame);
-/// Binds the inputs of environment_api.glsl and surroundings_api.glsl that the program in use declares.
+/// kIndirect of indirect_api.glsl for this frame; nothing without IndirectLight.
+[[nodiscard]] gpu::SpecConstants indirect_constants(const FrameBuilder& frame);
+/// Binds the inputs of environment_api.glsl, indirect_api.glsl and surroundings_api.glsl that the program in use declares.
 void read_surroundings(ShaderPass& pass, FrameBuilder& frame);
 
 /// The reference of a knob: the mean, in linear light, of pictures whose pixels are sampled at different points.

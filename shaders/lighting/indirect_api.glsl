@@ -36,13 +36,25 @@ vec3 diffuse_terms(DiffuseProbe probe, vec3 n) {
   return max(light, vec3(0.0));
 }
 
+// ∫ L(ω) (1 + n · ω) dω / 4π of the light L around a probe. n: at most unit length.
+vec3 volume_terms(DiffuseProbe probe, vec3 n) {
+  vec3 along = n.y * probe.terms[1].rgb + n.z * probe.terms[2].rgb + n.x * probe.terms[3].rgb;
+  return max(probe.terms[0].rgb + 0.5 * along, vec3(0.0));  // a cosine lobe has twice that of the linear part
+}
+
+// GLOAM_INDIRECT_VOLUME: for points without a surface; normal is n of volume_terms().
 void add_diffuse_probe(inout SurroundingLight sum, DiffuseProbe probe, vec3 position, vec3 normal) {
-  float share = facing_share(probe.row, place_in_probe(probe.row, position), normal) * (1.0 - sum.covered);
-  sum.radiance += share * diffuse_terms(probe, normal);
+#ifdef GLOAM_INDIRECT_VOLUME
+  vec3 facing = vec3(0.0), light = volume_terms(probe, normal);
+#else
+  vec3 facing = normal, light = diffuse_terms(probe, normal);
+#endif
+  float share = facing_share(probe.row, place_in_probe(probe.row, position), facing) * (1.0 - sum.covered);
+  sum.radiance += share * light;
   sum.covered += share;
 }
 
-// normal: unit length.
+// normal: unit length; with GLOAM_INDIRECT_VOLUME n.
 SurroundingLight surrounding_light(vec3 position, vec3 normal) {
   vec3 beyond = hemisphere_radiance(environment, normal);
   SurroundingLight sum = SurroundingLight(vec3(0.0), 0.0);

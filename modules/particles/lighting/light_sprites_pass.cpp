@@ -14,6 +14,7 @@ ParticleLightVersion particle_light_version(const FrameBuilder& frame, const Bak
   version.cookies = shadows != nullptr && shadows->cookie_lights > 0;
   version.constants = {{"kMaps", atlas.visibility ? 1u : 0u}};
   if (version.cookies) version.constants.set(shadows->constants);
+  version.constants.set(indirect_constants(frame));
   return version;
 }
 

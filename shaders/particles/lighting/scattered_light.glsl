@@ -5,7 +5,7 @@
 
 // Light that a particle scatters towards the eye. Before including this, declare the uniforms `view` and `frame`, and
 // define GLOAM_PARTICLE_LIGHT_BINDING, the first of six bindings for the emitters, the maps and the light block and
-// environment, and of three more with GLOAM_FORWARD_COOKIES.
+// environment, and of three more with GLOAM_FORWARD_COOKIES; the 15th and 16th are those of indirect_api.glsl.
 //
 // A particle is a small volume, without a surface. Of the light L from all directions ω it scatters
 //   albedo · ∫ L(ω) (1 + n · ω) dω / 4π
@@ -26,6 +26,9 @@ layout(set = 0, binding = GLOAM_PARTICLE_LIGHT_BINDING + 3) uniform sampler3D ba
 
 #define GLOAM_FORWARD_BINDING (GLOAM_PARTICLE_LIGHT_BINDING + 4)
 #include "shaders/lighting/forward_lights_api.glsl"
+#define GLOAM_INDIRECT_BINDING (GLOAM_PARTICLE_LIGHT_BINDING + 14)
+#define GLOAM_INDIRECT_VOLUME
+#include "shaders/lighting/indirect_api.glsl"
 
 // p.normal: n. p.diffuse: albedo / 4π.
 vec3 light_response(ShadingPoint p, vec3 to_light, vec3 illuminance) {
@@ -67,7 +70,7 @@ vec3 scattered_light(ParticleEmitterRow e, vec3 position, vec3 outward) {
     light = baked_light(e, p, place);
     visibility = textureLod(baked_visibility, place, 0.0);
   } else {
-    light = e.albedo * hemisphere_radiance(environment, p.normal);
+    light = e.albedo * surrounding_light(position, p.normal).radiance;
   }
   for (uint i = 0u; i < e.light_count; ++i) {
     uint channel = e.light_channels[i];

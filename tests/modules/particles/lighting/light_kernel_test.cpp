@@ -16,6 +16,10 @@
 namespace gloam::test {
 namespace {
 
+/// Light around a probe in a direction ω: kAround + kSlopes[0] ω.x + kSlopes[1] ω.y + kSlopes[2] ω.z.
+constexpr dvec3 kAround(0.8, 0.5, 0.3);
+constexpr std::array<dvec3, 3> kSlopes = {dvec3(0.3, 0.1, -0.1), dvec3(-0.2, 0.3, 0.1), dvec3(0.1, -0.3, 0.2)};
+
 /// Emitters with random looks and lights, and particles around them.
 struct Lit {
   LightKernelScene scene;
@@ -75,6 +79,8 @@ struct Lit {
         sum[c] = static_cast<double>(e.map_light_scale) * albedo[c] *
                  std::max(glm::dot(scene.flux_at(texel, c), dvec4(n, 1.0)), 0.0) / (4.0 * kTwinPi);
       visibility = scene.visibility_at(texel);
+    } else if (scene.probe) {
+      sum = albedo * (kAround + (kSlopes[0] * n.x + kSlopes[1] * n.y + kSlopes[2] * n.z) / 3.0);
     } else {
       sum = albedo *
             glm::mix(dvec3(scene.kGround), 0.5 * (dvec3(scene.kHorizon) + dvec3(scene.kZenith)), 0.5 + 0.5 * n.y);
@@ -112,6 +118,27 @@ TEST_F(ParticleLightKernel, is_the_light_of_the_twin_at_middles_and_corners_with
           EXPECT_NEAR(static_cast<double>(light[c]), wanted[c], 4e-3 * wanted[c] + 1e-5) << i << ", maps " << maps;
       }
     }
+  }
+}
+
+TEST_F(ParticleLightKernel, of_a_probe_takes_the_place_of_sky_and_ground) {
+  Lit lit(false);
+  shaders::DiffuseProbe probe{};
+  probe.row.global = 1.0f;
+  probe.row.fade = 0.2f;
+  probe.terms[0] = vec4(vec3(kAround), 0.0f);
+  // A cosine lobe over a linear environment has 2/3 of its slope. Terms are those of y, z and x.
+  probe.terms[1] = vec4(vec3(kSlopes[1] * (2.0 / 3.0)), 0.0f);
+  probe.terms[2] = vec4(vec3(kSlopes[2] * (2.0 / 3.0)), 0.0f);
+  probe.terms[3] = vec4(vec3(kSlopes[0] * (2.0 / 3.0)), 0.0f);
+  lit.scene.probe = probe;
+  const std::vector<uvec2> found = lit.scene.run(device(), 1, false);
+  for (std::uint32_t i = 0; i < lit.scene.order.size(); ++i) {
+    const dvec3 wanted = lit.expected(i, 0.0, 0.0);
+    const auto half = [](std::uint32_t bits) { return half_to_float(static_cast<std::uint16_t>(bits)); };
+    const vec3 light(half(found[i].x), half(found[i].x >> 16), half(found[i].y));
+    for (int c = 0; c < 3; ++c)
+      EXPECT_NEAR(static_cast<double>(light[c]), wanted[c], 4e-3 * wanted[c] + 1e-5) << i << " " << c;
   }
 }
 

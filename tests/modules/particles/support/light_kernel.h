@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "engine/math/packing.h"
 #include "engine/render/camera/view_constants.h"
 #include "modules/particles/baked_light.h"
+#include "shaders/lighting/indirect_shared.h"
 #include "shaders/particles/shaders.h"
 #include "tests/modules/particles/support/light_twin.h"
 #include "tests/support/kernel.h"
@@ -43,6 +45,7 @@ struct LightKernelScene {
   std::vector<shaders::Particle> particles;
   std::vector<std::uint32_t> order;
   std::vector<LampRow> lamps;
+  std::optional<shaders::DiffuseProbe> probe;  ///< takes the place of sky and ground in its box
 
   void add_lamp(const vec3& at, const vec3& candela, float range_m) {
     lamps.push_back({at, 1.0f / (range_m * range_m), candela, 0.0f, vec3(0.0f, -1.0f, 0.0f), 1.0f});
@@ -64,7 +67,9 @@ struct LightKernelScene {
 
   /// The light at points of the sprites.
   [[nodiscard]] std::vector<uvec2> run(gpu::Device& device, std::uint32_t points, bool maps) const {
-    Kernel kernel(device, shaders::particles::light_comp, {{"kLitPoints", points}, {"kMaps", maps ? 1u : 0u}});
+    gpu::SpecConstants constants = {{"kLitPoints", points}, {"kMaps", maps ? 1u : 0u}};
+    if (probe) constants.set("kIndirect", 2u);
+    Kernel kernel(device, shaders::particles::light_comp, constants);
     kernel.input(0, std::vector{view_constants(make_view(look_at(dvec3(0.0, 0.0, 5.0), dvec3(0.0), 64, 64), 0))});
     kernel.input(1, std::vector{frame()});
     kernel.input(2, emitters);
@@ -81,6 +86,10 @@ struct LightKernelScene {
     }
     kernel.input(11, light_block());
     kernel.input(12, std::vector<vec4>{vec4(kZenith, 0.0f), vec4(kHorizon, 0.0f), vec4(kGround, 0.0f)});
+    shaders::IndirectConstants indirect{};
+    indirect.few_probes[0] = probe.value_or(shaders::DiffuseProbe{});
+    kernel.input(21, std::vector{indirect});
+    kernel.input(22, std::vector{shaders::DiffuseProbe{}});
     kernel.run(static_cast<std::uint32_t>((order.size() + 63) / 64));
     std::vector<uvec2> found = kernel.read<uvec2>(6);
     EXPECT_TRUE(device.wait_idle().ok());

@@ -43,6 +43,10 @@ struct CaptureWorld : test::BakeWorld {
     all.proxy_lights = {{0, lights[1], 1.0f}, {1, lights[0], 0.25f}, {1, lights[3], 0.75f}};
     all.probes = {8, 1, 1, std::vector<std::uint16_t>(8 * 8 * 4, 7)};
     all.probe_entities = {probes[1]};
+    all.probe_diffuse.emplace_back();
+    all.probe_diffuse[0].lamps[3] = vec3(1.0f, 2.0f, 3.0f);
+    all.probe_diffuse[0].unlit[8] = vec3(-4.0f, 5.0f, 6.0f);
+    all.grid = {{dvec3(1e9, 0.25, -3.0), vec3(0.5f, 1.0f, 2.0f), vec3(7.0f), all.probe_diffuse[0]}, {}};
     for (const Entity light : lights) all.lights.push_back({light, vec3(1.5f, 2.0f, static_cast<float>(light.index))});
     return all;
   }
@@ -59,6 +63,19 @@ void expect_equal(const ReflectionCaptures& a, const ReflectionCaptures& b) {
   }
   EXPECT_EQ(a.proxy_entities, b.proxy_entities);
   EXPECT_EQ(a.probe_entities, b.probe_entities);
+  ASSERT_EQ(a.probe_diffuse.size(), b.probe_diffuse.size());
+  for (std::size_t i = 0; i < a.probe_diffuse.size(); ++i) {
+    EXPECT_EQ(a.probe_diffuse[i].lamps, b.probe_diffuse[i].lamps);
+    EXPECT_EQ(a.probe_diffuse[i].unlit, b.probe_diffuse[i].unlit);
+  }
+  ASSERT_EQ(a.grid.size(), b.grid.size());
+  for (std::size_t i = 0; i < a.grid.size(); ++i) {
+    EXPECT_EQ(a.grid[i].center, b.grid[i].center);
+    EXPECT_EQ(a.grid[i].half, b.grid[i].half);
+    EXPECT_EQ(a.grid[i].lamps_lux, b.grid[i].lamps_lux);
+    EXPECT_EQ(a.grid[i].diffuse.lamps, b.grid[i].diffuse.lamps);
+    EXPECT_EQ(a.grid[i].diffuse.unlit, b.grid[i].diffuse.unlit);
+  }
   ASSERT_EQ(a.proxy_lights.size(), b.proxy_lights.size());
   for (std::size_t i = 0; i < a.proxy_lights.size(); ++i) {
     EXPECT_EQ(a.proxy_lights[i].layer, b.proxy_lights[i].layer);
