@@ -183,7 +183,8 @@ struct ForwardLighting {
 void read_lighting(ShaderPass& pass, FrameBuilder& frame);
 /// kIndirect of indirect_api.glsl for this frame; nothing without IndirectLight.
 [[nodiscard]] gpu::SpecConstants indirect_constants(const FrameBuilder& frame);
-/// Binds the inputs of environment_api.glsl, indirect_api.glsl and surroundings_api.glsl that the program in use declares.
+/// Binds the inputs of environment_api.glsl, indirect_api.glsl and surroundings_api.glsl that the program in use
+/// declares.
 void read_surroundings(ShaderPass& pass, FrameBuilder& frame);
 
 /// The reference of a knob: the mean, in linear light, of pictures whose pixels are sampled at different points.

@@ -8,8 +8,7 @@ void add_reflection_knobs(KnobRegistry& registry) {
   add_knobs(registry, "reflections", kReflectionMode, kReflectionTiers, kReflectionTemporal, kReflectionPixelRoughness,
             kReflectionBlur, kReflectionDilation, kReflectionBump, kReflectionPixelNormals, kReflectionLightScale,
             kSsrK1, kSsrK2, kSsrReach, kSsrRefine, kSsrFullResolution, kSsrHierarchical, kProxyTiles, kProxyTileBound,
-            kProxyLayers, kProxySort, kProxySphereTest, kNaiveProxyLoop, kReflectionRecapture,
-            kIndirectLight);
+            kProxyLayers, kProxySort, kProxySphereTest, kNaiveProxyLoop, kReflectionRecapture, kIndirectLight);
 }
 
 ReflectionKnobs reflection_knobs(const KnobRegistry& registry) {

@@ -218,7 +218,8 @@ void add_reflection_list_passes(FrameBuilder& frame) {
 void add_reflection_passes(FrameBuilder& frame, Staging& staging, CaptureFactors& factors) {
   const ReflectionPlan* plan = frame.find<ReflectionPlan>();
   if (plan == nullptr || plan->no_specular) return;
-  if (plan->traced != nullptr) return add_traced_light_pass(frame, upload_traced(frame, staging, "reflection_traced", *plan->traced));
+  if (plan->traced != nullptr)
+    return add_traced_light_pass(frame, upload_traced(frame, staging, "reflection_traced", *plan->traced));
   auto& [uniforms, surfaces] = frame.get<FoundSurfaces>();
   add_surroundings_passes(frame, uniforms, surfaces, plan->mirror);
   if (plan->mirror) return add_mirror_passes(frame, staging, *plan, uniforms, surfaces, factors);
