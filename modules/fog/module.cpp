@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "engine/ecs/view.h"
@@ -19,6 +20,8 @@
 
 namespace gloam {
 namespace {
+
+constexpr const char* kMarchedView = "fog_reference";
 
 HomogeneousFog homogeneous(const Fog& fog) { return {fog.density, fog.color, fog.sky_distance_m}; }
 
@@ -68,6 +71,14 @@ class FogModule final : public Module {
 
   [[nodiscard]] std::vector<ReferenceInfo> references() const override { return fog_references(); }
 
+  [[nodiscard]] std::vector<VisualizerInfo> visualizers() const override {
+    VisualizerInfo view{.name = kMarchedView,
+                        .module = "fog",
+                        .legend = "the picture with light of lamps that the fog scatters, marched along each ray"};
+    view.trace = &put_marched_fog;
+    return {std::move(view)};
+  }
+
   /// For references that are computed after the frame.
   void prepare_view(World& world, ViewId, const KnobRegistry&) const override {
     world.set_resource(homogeneous(find_fog(world)));
@@ -92,6 +103,7 @@ class FogModule final : public Module {
     if (phase == PassPhase::announce) {
       frame.put(homogeneous(fog));
       frame.put(FrontDepthWanted{});
+      if (frame.visualizer() == kMarchedView) frame.put(VisualizerIsPicture{});
     }
     const bool bare = frame.world().try_resource<BareLight>() != nullptr;
     if (phase == PassPhase::post) {

@@ -2,15 +2,16 @@
 // SPDX-License-Identifier: MIT
 #include "modules/fog/references.h"
 
-#include <limits>
+#include <cstddef>
 #include <string>
 #include <string_view>
+#include <utility>
 
-#include "engine/ecs/view.h"
 #include "engine/render/camera/light_scale.h"
 #include "engine/render/passes/renderer_passes.h"
 #include "modules/fog/components.h"
 #include "modules/fog/knobs.h"
+#include "modules/fog/lamp_scattering.h"
 #include "modules/fog/model.h"
 
 namespace gloam {
@@ -21,19 +22,28 @@ struct BareLightOutput {
   ImageRef light;
 };
 
-/// Path lengths through the fog, one per pixel; infinite for the sky.
-std::vector<double> distances_of(const GeometryPicture& geometry) {
-  const RenderView& view = geometry.view;
-  std::vector<double> distances(geometry.depth.size(), std::numeric_limits<double>::infinity());
-  const dvec3 forward(-view.view_from_relative[0][2], -view.view_from_relative[1][2], -view.view_from_relative[2][2]);
-  for (std::uint32_t y = 0; y < view.height; ++y)
-    for (std::uint32_t x = 0; x < view.width; ++x) {
-      const std::size_t at = std::size_t{y} * view.width + x;
-      if (geometry.is_sky(at)) continue;
-      const dvec3 position = geometry.position(x, y);
-      distances[at] = view.camera.orthographic ? glm::dot(position, forward) : glm::length(position);
-    }
-  return distances;
+/// The frame's light before the fog.
+Result<LinearPicture> draw_bare_light(const ReferenceInput& input) {
+  if (!input.redraw || input.geometry == nullptr)
+    return Error{ErrorKind::usage,
+                 "the reference of fog needs the frame's geometry and a frame that can be drawn again"};
+  auto bare = input.redraw([](World& world) { world.set_resource(BareLight{}); },
+                           [](World& world) { world.remove_resource<BareLight>(); });
+  if (!bare) return bare.error();
+  return std::move(bare->linear);
+}
+
+/// fog_reference() of that light.
+std::vector<double> add_fog(const ReferenceInput& input, const LinearPicture& light) {
+  return fog_reference(light.rgba, fog_distances(*input.geometry), light.width, light.height, find_fog(input.world),
+                       kMostHalf / static_cast<double>(input.view.light_scale));
+}
+
+Result<FramePictures> show(const ReferenceInput& input, const LinearPicture& light) {
+  // Drawn again: what later modules make of this light is part of the frame that the knob is judged by.
+  return input.redraw(
+      [&](World& world) { world.set_resource(FogPicture{to_light_picture(light, input.view.light_scale)}); },
+      [](World& world) { world.remove_resource<FogPicture>(); });
 }
 
 }  // namespace
@@ -46,21 +56,42 @@ void add_bare_light_pass(FrameBuilder& frame) {
 void show_bare_light(FrameBuilder& frame) { frame.get<LitOutput>().color = frame.get<BareLightOutput>().light; }
 
 Result<FramePictures> draw_fog_reference(const ReferenceInput& input) {
-  if (!input.redraw || input.geometry == nullptr)
-    return Error{ErrorKind::usage,
-                 "the reference of fog needs the frame's geometry and a frame that can be drawn again"};
-  const auto bare = input.redraw([](World& world) { world.set_resource(BareLight{}); },
-                                 [](World& world) { world.remove_resource<BareLight>(); });
+  const auto bare = draw_bare_light(input);
   if (!bare) return bare.error();
-  const Fog fog = find_fog(input.world);
-  const LinearPicture& light = bare->linear;
-  const std::vector<double> fogged = fog_reference(light.rgba, distances_of(*input.geometry), light.width, light.height,
-                                                   fog, kMostHalf / static_cast<double>(input.view.light_scale));
-  const LinearPicture exact{light.width, light.height, {fogged.begin(), fogged.end()}};
-  // Drawn again: what later modules make of this light is part of the frame that the knob is judged by.
-  return input.redraw(
-      [&](World& world) { world.set_resource(FogPicture{to_light_picture(exact, input.view.light_scale)}); },
-      [](World& world) { world.remove_resource<FogPicture>(); });
+  const std::vector<double> fogged = add_fog(input, *bare);
+  return show(input, {bare->width, bare->height, {fogged.begin(), fogged.end()}});
+}
+
+Result<LinearPicture> march_fog(const ReferenceInput& input) {
+  if (input.tracer == nullptr) return Error{ErrorKind::usage, "marched fog needs the scene's triangles"};
+  auto bare = draw_bare_light(input);
+  if (!bare) return bare.error();
+  const std::vector<double> fogged = add_fog(input, *bare);
+  const std::vector<dvec3> scattered = scatter_lamps({.world = input.world,
+                                                      .geometry = *input.geometry,
+                                                      .tracer = *input.tracer,
+                                                      .executor = input.executor,
+                                                      .samples = input.samples,
+                                                      .progress = input.progress},
+                                                     find_fog(input.world));
+  LinearPicture marched{bare->width, bare->height, {fogged.begin(), fogged.end()}};
+  for (std::size_t i = 0; i < scattered.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c)
+      marched.rgba[4 * i + c] = static_cast<float>(fogged[4 * i + c] + scattered[i][static_cast<int>(c)]);
+  return marched;
+}
+
+Result<FramePictures> draw_marched_fog(const ReferenceInput& input) {
+  const auto marched = march_fog(input);
+  if (!marched) return marched.error();
+  return show(input, *marched);
+}
+
+Status put_marched_fog(World& world, const ReferenceInput& input) {
+  const auto marched = march_fog(input);
+  if (!marched) return marched.error();
+  world.set_resource(FogPicture{to_light_picture(*marched, input.view.light_scale)});
+  return {};
 }
 
 std::vector<ReferenceInfo> fog_references() {

@@ -23,6 +23,15 @@ void show_bare_light(FrameBuilder& frame);
 /// depth of its surfaces. Usage error if the frame cannot be drawn again or its geometry is absent.
 [[nodiscard]] Result<FramePictures> draw_fog_reference(const ReferenceInput& input);
 
+/// The light of fog_reference() and, added to it, the light of lamps that the fog scatters toward the camera
+/// (scatter_lamps()), with input.samples shadow rays for each pixel. Usage error if the frame cannot be drawn again or
+/// its geometry or triangles are absent.
+[[nodiscard]] Result<LinearPicture> march_fog(const ReferenceInput& input);
+/// The frame of the input with that light.
+[[nodiscard]] Result<FramePictures> draw_marched_fog(const ReferenceInput& input);
+/// Puts that light into the world, for the frame that shows it.
+[[nodiscard]] Status put_marched_fog(World& world, const ReferenceInput& input);
+
 /// The references of the module's knobs.
 [[nodiscard]] std::vector<ReferenceInfo> fog_references();
 

@@ -4,6 +4,7 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "engine/ecs/view.h"
@@ -17,6 +18,8 @@
 
 namespace gloam {
 namespace {
+
+constexpr const char* kReferenceView = "glare_reference";
 
 Demand glare_of_view(const World& world, const RenderView& view) {
   if (view.purpose == ViewPurpose::capture) return {false, "captures have no lens"};
@@ -44,6 +47,13 @@ class GlareModule final : public Module {
   }
   void knobs(KnobRegistry& registry) const override { add_knobs(registry, name(), kGlareLines); }
   [[nodiscard]] std::vector<ReferenceInfo> references() const override { return {glare_reference()}; }
+  [[nodiscard]] std::vector<VisualizerInfo> visualizers() const override {
+    VisualizerInfo view{.name = kReferenceView,
+                        .module = "glare",
+                        .legend = "the picture with glare convolved over the whole picture in double precision"};
+    view.trace = &put_glare_picture;
+    return {std::move(view)};
+  }
   [[nodiscard]] std::string switched_off(const World&, const KnobRegistry& knobs) const override {
     return knobs.value(kGlareLines) == 0 ? assignment_of(kGlareLines, 0) : "";
   }
@@ -61,6 +71,7 @@ class GlareModule final : public Module {
     list_glare_pipelines(list);
   }
   void add_passes(FrameBuilder& frame, PassPhase phase) override {
+    if (phase == PassPhase::announce && frame.visualizer() == kReferenceView) frame.put(VisualizerIsPicture{});
     if (phase == PassPhase::post) add_post_passes(frame);
     if (phase == PassPhase::visualize && frame.find<ScatteredLight>() != nullptr &&
         frame.world().try_resource<ShownLight>() != nullptr)
@@ -73,9 +84,14 @@ class GlareModule final : public Module {
 
  private:
   void add_post_passes(FrameBuilder& frame) {
-    if (const GlarePicture* picture = find_glare_picture(frame.world(), frame.view()))
-      return add_light_picture_pass(frame, staging_, "glare_picture", *picture);
-    add_glare_passes(frame, glare_share(frame.world(), frame.view()), frame.knobs().value(kGlareLines));
+    const float share = glare_share(frame.world(), frame.view());
+    const GlarePicture* picture = find_glare_picture(frame.world(), frame.view());
+    if (picture == nullptr) return add_glare_passes(frame, share, frame.knobs().value(kGlareLines));
+    ScatteredLight scattered;
+    scattered.light = upload_light_picture(frame, staging_, "glare_picture", *picture);
+    scattered.uv_scale = 1.0f / vec2(picture->width, picture->height);
+    scattered.share = share;
+    if (scattered.light) frame.put(scattered);
   }
 
   Staging staging_{"glare"};

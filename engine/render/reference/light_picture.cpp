@@ -18,11 +18,11 @@ LightPicture to_light_picture(const LinearPicture& picture, float light_scale) {
   return half;
 }
 
-void add_light_picture_pass(FrameBuilder& frame, Staging& staging, const std::string& pass,
-                            const LightPicture& picture) {
+ImageRef upload_light_picture(FrameBuilder& frame, Staging& staging, const std::string& pass,
+                              const LightPicture& picture) {
   const auto texels = std::as_bytes(std::span(picture.light));
   const auto slice = staging.ring(frame.services().device).allocate(texels.size());
-  if (!frame.check(slice)) return;
+  if (!frame.check(slice)) return {};
   std::memcpy(slice->bytes.data(), texels.data(), texels.size());
   PassBuilder upload = frame.graph().add_pass(pass, frame.module());
   const ImageRef written =
@@ -30,7 +30,13 @@ void add_light_picture_pass(FrameBuilder& frame, Staging& staging, const std::st
   upload.execute([written, source = *slice](PassContext& context) {
     context.commands().copy_buffer_to_image(source.buffer, source.offset, context.image(written), 0, 0, 1);
   });
-  frame.get<LitOutput>().color = written;
+  return written;
+}
+
+void add_light_picture_pass(FrameBuilder& frame, Staging& staging, const std::string& pass,
+                            const LightPicture& picture) {
+  const ImageRef written = upload_light_picture(frame, staging, pass, picture);
+  if (written) frame.get<LitOutput>().color = written;
 }
 
 }  // namespace gloam

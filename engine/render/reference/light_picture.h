@@ -25,7 +25,12 @@ struct LightPicture {
 /// The picture in half floats, as a view with this RenderView::light_scale stores it; light above 65504 becomes 65504.
 [[nodiscard]] LightPicture to_light_picture(const LinearPicture& picture, float light_scale);
 
-/// PassPhase::post: LitOutput becomes the picture, which must fit the view. pass: name of the pass and its image.
+/// The picture as an image of the view's size, which it must have. pass: name of the pass and of the image. Null if the
+/// frame was given up.
+[[nodiscard]] ImageRef upload_light_picture(FrameBuilder& frame, Staging& staging, const std::string& pass,
+                                            const LightPicture& picture);
+
+/// PassPhase::post: LitOutput becomes the picture, which must fit the view. pass: as above.
 void add_light_picture_pass(FrameBuilder& frame, Staging& staging, const std::string& pass,
                             const LightPicture& picture);
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -12,6 +13,7 @@
 #include "engine/math/srgb.h"
 #include "engine/render/renderer.h"
 #include "modules/glare/components.h"
+#include "modules/glare/reference/glare_reference.h"
 #include "modules/glare/reference/spread_light.h"
 #include "modules/lighting/outputs.h"
 #include "modules/module_list/module_list.h"
@@ -188,6 +190,79 @@ TEST_F(GlareFrames, without_a_set_exposure_are_exposed_as_without_glare) {
   };
   const double without = mean_exposed(0.0f);
   EXPECT_NEAR(mean_exposed(0.02f) / without, 1.0, 0.05);
+}
+
+/// ReferenceInput::redraw for the stage's view without a visualizer.
+std::function<Result<FramePictures>(const std::function<void(World&)>&, const std::function<void(World&)>&)> redraw_of(
+    GlareStage& stage) {
+  return [&stage](const auto& change, const auto& restore) -> Result<FramePictures> {
+    change(stage.world);
+    const LinearPicture light = stage.draw();
+    FramePictures drawn{light, stage.picture()};
+    restore(stage.world);
+    return drawn;
+  };
+}
+
+ReferenceInput input_of(GlareStage& stage, const FramePictures& frame) {
+  return {.world = stage.world,
+          .view = stage.world.view_resource<RenderView>(stage.view.id),
+          .knobs = stage.renderer->knobs(),
+          .frame = frame,
+          .samples = 1,
+          .executor = *stage.executor,
+          .redraw = redraw_of(stage)};
+}
+
+// The sum of sharp and spread light is exact to the steps of half floats.
+TEST_F(GlareFrames, of_the_view_glare_reference_show_the_convolution) {
+  GlareStage stage;
+  stage.set("lighting.tone_map", "linear");
+  stage.glare(0.1f);
+  auto& environment = stage.world.resource<SceneEnvironment>();
+  environment.has_exposure = true;
+  environment.exposure_ev100 = 1.0f;
+  const LinearPicture light = stage.draw();
+  const Picture drawn = stage.picture();
+  std::vector<vec4> texels(light.rgba.size() / 4);
+  for (std::size_t i = 0; i < texels.size(); ++i)
+    texels[i] = {light.rgba[4 * i], light.rgba[4 * i + 1], light.rgba[4 * i + 2], 1.0f};
+  const std::vector<dvec3> spread = spread_light(texels, {light.width, light.height}, *stage.executor, 1e30);
+  for (const VisualizerInfo& view : stage.renderer->visualizers()) {
+    if (view.name != "glare_reference") continue;
+    ASSERT_TRUE(view.trace(stage.world, input_of(stage, {})).ok());
+  }
+  stage.view.visualizer = "glare_reference";
+  EXPECT_EQ(stage.draw().rgba, light.rgba) << "the light that comes to the lens is the same";
+  const Picture shown = stage.picture();
+  for (std::size_t i = 0; i < texels.size(); ++i)
+    for (int c = 0; c < 3; ++c) {
+      const double sum = 0.9 * static_cast<double>(texels[i][c]) + 0.1 * spread[i][c];
+      const double expected = 255.0 * linear_to_srgb(std::clamp(sum / 2.4, 0.0, 1.0));
+      ASSERT_NEAR(shown.rgba[4 * i + static_cast<std::size_t>(c)], expected, 1.0) << i;
+    }
+  EXPECT_NE(shown.rgba, drawn.rgba) << "the passes approximate the convolution";
+}
+
+// The reference's own exposure must not count against a knob.
+// Hard case: glare.reference_exposure
+TEST_F(GlareFrames, of_the_reference_are_exposed_as_the_frame) {
+  GlareStage stage;
+  auto& environment = stage.world.resource<SceneEnvironment>();
+  environment.sky_zenith = environment.sky_horizon = environment.sky_ground = vec3(0.0f);
+  stage.set("lighting.exposure", "metered");
+  stage.glare(0.02f);
+  LinearPicture light = stage.draw();
+  const FramePictures frame{light, stage.picture()};
+  const FramePictures reference = value_of(glare_reference().draw(input_of(stage, frame)));
+  // The pixels of the larger lamp, where the glow is small beside the light.
+  int lamp = 0;
+  for (std::size_t i = 1; i < light.rgba.size(); i += 4) {
+    if (light.rgba[i] < 8.0f || light.rgba[i] > 10.0f) continue;
+    ASSERT_NEAR(reference.picture.rgba[i], frame.picture.rgba[i], 2.0) << i;
+    ++lamp;
+  }
+  EXPECT_GT(lamp, 50);
 }
 
 // Hard case: glare.orthographic
