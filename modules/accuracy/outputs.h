@@ -56,6 +56,16 @@ struct WholeError {
   bool operator==(const WholeError&) const = default;
 };
 
+/// The difference from a picture that does not share the effect's model (ReferenceInfo::draw_model): the error of the
+/// model and of the knob's value together.
+struct EffectModelError {
+  std::string name;    ///< of the method that drew the picture
+  ErrorPair flip;      ///< 0…1
+  double rmse = 0.0;   ///< linear light, cd/m², over all pixels and channels
+  double noise = 0.0;  ///< as LedgerRow::reference_noise
+  bool operator==(const EffectModelError&) const = default;
+};
+
 /// A rectangle of a picture's pixels.
 struct PictureArea {
   std::uint32_t x = 0;
@@ -91,6 +101,7 @@ struct LedgerRow {
   std::optional<ErrorPair> temporal;
   /// None for a knob that is a look (Knob::is_look), and in older ledgers.
   std::optional<WholeError> whole;
+  std::optional<EffectModelError> effect_model;  ///< none if the effect's model is not judged, and in older ledgers
 
   /// Of a frame, by the ledger's clock: the default's time, times the ratio.
   TimeSummary ms;

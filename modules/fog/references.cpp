@@ -101,6 +101,9 @@ std::vector<ReferenceInfo> fog_references() {
                           .kind = "traced",
                           .name = "fog along each ray, in double",
                           .draw = &draw_fog_reference});
+  // The model's error is the same for both knobs: it is drawn for the first of them only.
+  references.front().draw_model = &draw_marched_fog;
+  references.front().model_name = "light of lamps marched along each ray";
   return references;
 }
 

@@ -89,6 +89,11 @@ struct ReferenceInfo {
   /// The ledger shows it as the knob's error. Empty: there is none. `frame` of the input may be absent.
   std::function<Result<std::optional<MovedDistance>>(const ReferenceInput&)> distance = {};
   std::string unit = {};  ///< of `distance`: "mm at the tip"
+  /// Judges the effect's model, where `draw` has the same model as the frame: draws the frame by a method that does not
+  /// share it. The ledger has the difference of each value's frame from that picture beside the value's own error,
+  /// which it would hide. Samples as if `samples` were set. Not with `follows_value`. Empty: there is none.
+  std::function<Result<FramePictures>(const ReferenceInput&)> draw_model = {};
+  std::string model_name = {};  ///< of `draw_model`, for the ledger: "light of lamps marched along each ray"
 };
 
 }  // namespace gloam

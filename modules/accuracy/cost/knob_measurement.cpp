@@ -183,6 +183,17 @@ Status KnobMeasurement::judge_whole(const FramePictures& frame, LedgerRow& row) 
   return {};
 }
 
+Status KnobMeasurement::judge_model(const FramePictures& frame, LedgerRow& row) const {
+  if (!model_reference_) return {};
+  LedgerRow errors;
+  GLOAM_TRY(model_reference_->judge.judge(frame, errors));
+  row.effect_model = EffectModelError{.name = reference_->model_name,
+                                      .flip = errors.flip.value_or(ErrorPair{}),
+                                      .rmse = errors.rmse.value_or(0.0),
+                                      .noise = model_reference_->noise};
+  return {};
+}
+
 Status KnobMeasurement::judge_by(const NoisyReference& reference, const FramePictures& frame, LedgerRow& row) {
   GLOAM_TRY(compare(reference, frame, progress_, row));
   return judge_whole(frame, row);
@@ -200,9 +211,17 @@ Status KnobMeasurement::draw_common_reference() {
     common_reference_.emplace(NoisyReference{PictureJudge(std::move(drawn->frame.pictures)), drawn->frame.hash});
     return {};
   }
-  auto reference = module_reference(default_, drawn->frame.pictures);
+  auto reference = module_reference(*reference_, default_, drawn->frame.pictures);
   if (!reference) return reference.error();
   common_reference_.emplace(std::move(reference).value());
+  if (!reference_->draw_model) return {};
+  ReferenceInfo model = *reference_;
+  model.name = model.model_name;
+  model.draw = model.draw_model;
+  model.samples = true;
+  auto exact = module_reference(model, default_, drawn->frame.pictures);
+  if (!exact) return exact.error();
+  model_reference_.emplace(std::move(exact).value());
   return {};
 }
 
@@ -257,7 +276,7 @@ Status KnobMeasurement::judge_by_module(const std::string& value, const Drawn& d
   row.reference_name = reference_->name;
   std::optional<NoisyReference> own;
   if (reference_->follows_value) {
-    auto reference = module_reference(value, drawn.frame.pictures);
+    auto reference = module_reference(*reference_, value, drawn.frame.pictures);
     if (!reference) return reference.error();
     own.emplace(std::move(reference).value());
   }
@@ -266,6 +285,7 @@ Status KnobMeasurement::judge_by_module(const std::string& value, const Drawn& d
   row.reference_noise = reference.noise;
   const double error = row.flip ? row.flip->mean : *row.rmse;
   row.below_noise = reference.noise > 0.0 && error < reference.noise;
+  GLOAM_TRY(judge_model(drawn.frame.pictures, row));
   const bool moves = request_.sequence >= 2 && reference_->kind == "accumulated" && !reference_->follows_value;
   return moves ? judge_motion(value, row) : Status();
 }
@@ -298,13 +318,14 @@ Result<std::vector<FramePictures>> KnobMeasurement::draw_motion(const std::strin
   return frames;
 }
 
-Result<NoisyReference> KnobMeasurement::module_reference(const std::string& value, const FramePictures& frame) {
+Result<NoisyReference> KnobMeasurement::module_reference(const ReferenceInfo& info, const std::string& value,
+                                                         const FramePictures& frame) {
   const std::string identity =
-      joined_line(reference_->kind + " " + reference_->name + " of " + hash_of(frame) + " " + frame_identity(value));
+      joined_line(info.kind + " " + info.name + " of " + hash_of(frame) + " " + frame_identity(value));
   std::optional<JudgedReference> reference = cache_.load(identity);
   if (!reference) {
     progress_.phase(CostPhase::references);
-    auto computed = compute(frame);
+    auto computed = compute(info, frame);
     if (!computed) return computed.error();
     reference = std::move(computed).value();
     GLOAM_TRY(cache_.save(identity, *reference));
@@ -314,13 +335,13 @@ Result<NoisyReference> KnobMeasurement::module_reference(const std::string& valu
   return NoisyReference{PictureJudge(std::move(reference->pictures)), hash, noise};
 }
 
-Result<JudgedReference> KnobMeasurement::compute(const FramePictures& frame) {
+Result<JudgedReference> KnobMeasurement::compute(const ReferenceInfo& info, const FramePictures& frame) {
   const std::uint32_t samples = std::max(request_.header.samples, 2u);
-  auto full = subject_.draw_reference(*reference_, frame, samples);
+  auto full = subject_.draw_reference(info, frame, samples);
   if (!full) return full.error();
   JudgedReference reference = {.pictures = std::move(full).value()};
-  if (!reference_->samples) return reference;
-  auto half = subject_.draw_reference(*reference_, frame, samples / 2);
+  if (!info.samples) return reference;
+  auto half = subject_.draw_reference(info, frame, samples / 2);
   if (!half) return half.error();
   LedgerRow change;
   GLOAM_TRY(PictureJudge(reference.pictures).judge(*half, change));

@@ -77,8 +77,11 @@ class KnobMeasurement {
   [[nodiscard]] Status judge_motion(const std::string& value, LedgerRow& row);
   /// The frames of a sequence with a value; with `references`, the module's reference of each.
   [[nodiscard]] Result<std::vector<FramePictures>> draw_motion(const std::string& value, bool references);
-  [[nodiscard]] Result<NoisyReference> module_reference(const std::string& value, const FramePictures& frame);
-  [[nodiscard]] Result<JudgedReference> compute(const FramePictures& frame);
+  [[nodiscard]] Result<NoisyReference> module_reference(const ReferenceInfo& info, const std::string& value,
+                                                        const FramePictures& frame);
+  [[nodiscard]] Result<JudgedReference> compute(const ReferenceInfo& info, const FramePictures& frame);
+  /// Sets row.effect_model if the module's reference judges its model.
+  [[nodiscard]] Status judge_model(const FramePictures& frame, LedgerRow& row) const;
   /// Whether it is known why the knob changes nothing, and the row's picture is that of the default. Sets
   /// row.no_effect_reason of the default.
   [[nodiscard]] Result<bool> is_idle(LedgerRow& row);
@@ -99,6 +102,7 @@ class KnobMeasurement {
       reference_;  ///< the module's reference; none: a frame with the knob's exact value, if it has one
   ReferenceCache cache_;
   std::optional<NoisyReference> common_reference_;  ///< the reference, if one serves all values
+  std::optional<NoisyReference> model_reference_;   ///< by ReferenceInfo::draw_model; drawn with common_reference_
   std::vector<LinearPicture> exact_sequence_;
   std::vector<FramePictures> reference_sequence_;  ///< empty until judge_motion() needs it
 };

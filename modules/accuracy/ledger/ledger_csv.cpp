@@ -47,7 +47,7 @@ constexpr const char* kCsvColumns =
     "rmse_p99,psnr_db,temporal_mean,temporal_p99,median_ms,p10_ms,p90_ms,cpu_ms,gpu_ms,module_cpu_ms,module_gpu_ms,"
     "ratio,gpu_bytes,front,ratio_low,ratio_high,pairs,wall_ms,picture,no_effect,"
     "whole_flip_mean,whole_flip_p99,whole_rmse,whole_psnr_db,edge_flip_mean,edge_flip_p99,edge_psnr_db,edge_share,"
-    "camera\n";
+    "effect_model,effect_model_flip_mean,effect_model_flip_p99,effect_model_rmse,effect_model_noise,camera\n";
 
 constexpr const char* kPointColumns =
     "settings,default,exact,front,flip_mean,flip_p99,rmse,psnr_db,median_ms,p10_ms,p90_ms,wall_ms,cpu_ms,gpu_ms,ratio,"
@@ -74,7 +74,11 @@ std::string csv_rows(const std::vector<LedgerRow>& rows, const std::string& came
     line.number(whole(&WholeError::rmse)).number(whole(&WholeError::psnr_db));
     line.pair(row.edges ? std::optional(row.edges->flip) : std::nullopt);
     line.number(row.edges ? std::optional(row.edges->psnr_db) : std::nullopt);
-    line.number(row.edges ? std::optional(row.edges->share) : std::nullopt).text(camera);
+    line.number(row.edges ? std::optional(row.edges->share) : std::nullopt);
+    line.text(row.effect_model ? row.effect_model->name : "")
+        .pair(row.effect_model ? std::optional(row.effect_model->flip) : std::nullopt);
+    line.number(row.effect_model ? std::optional(row.effect_model->rmse) : std::nullopt);
+    line.number(row.effect_model ? std::optional(row.effect_model->noise) : std::nullopt).text(camera);
     text += line.finish();
   }
   return text;

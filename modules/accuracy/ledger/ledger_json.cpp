@@ -62,12 +62,22 @@ WholeError whole_of(const Json& json) {
   return {pair_of(json.at("flip")), json.at("rmse").get<double>(), decibels_of(json.at("psnr_db"))};
 }
 
+Json effect_model_json(const EffectModelError& error) {
+  return {{"name", error.name}, {"flip", pair_json(error.flip)}, {"rmse", error.rmse}, {"noise", error.noise}};
+}
+
+EffectModelError effect_model_of(const Json& json) {
+  return {json.at("name").get<std::string>(), pair_of(json.at("flip")), json.at("rmse").get<double>(),
+          json.at("noise").get<double>()};
+}
+
 Json json_of(const LedgerRow& row) {
   Json json = {{"knob", row.knob}, {"value", row.value}, {"default", row.is_default}};
   json["reference"] = {{"kind", row.reference_kind}, {"name", row.reference_name}, {"noise", row.reference_noise}};
   json["no_reference"] = row.no_reference;
   json["error"] = errors_json(row);
   if (row.whole) json["whole_frame"] = whole_json(*row.whole);
+  if (row.effect_model) json["effect_model"] = effect_model_json(*row.effect_model);
   json["below_noise"] = row.below_noise;
   json["wrong"] = row.wrong;
   json["ms"] = {{"median", row.ms.median_ms}, {"p10", row.ms.p10_ms}, {"p90", row.ms.p90_ms}};
@@ -103,6 +113,7 @@ LedgerRow row_of(const Json& json) {
   // Ledgers of earlier versions call it `whole`.
   if (json.contains("whole_frame") || json.contains("whole"))
     row.whole = whole_of(json.contains("whole_frame") ? json["whole_frame"] : json["whole"]);
+  if (json.contains("effect_model")) row.effect_model = effect_model_of(json["effect_model"]);
   row.below_noise = json.at("below_noise").get<bool>();
   row.wrong = json.at("wrong").get<std::string>();
   const Json& ms = json.at("ms");

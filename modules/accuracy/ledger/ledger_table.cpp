@@ -101,6 +101,19 @@ std::string judgements(const std::vector<LedgerRow>& rows) {
   return text;
 }
 
+/// A line for each effect whose model is judged: how far the default's frame is from what the model approximates.
+std::string model_errors(const std::vector<LedgerRow>& rows) {
+  std::string text;
+  for (const LedgerRow& row : rows) {
+    if (!row.is_default || !row.effect_model) continue;
+    text += row.knob + "=" + row.value + ": the effect's model differs by mean FLIP " +
+            formatted("%.6f (noise %.6f), RMSE %.4g cd/m² from ", row.effect_model->flip.mean, row.effect_model->noise,
+                      row.effect_model->rmse) +
+            row.effect_model->name + "\n";
+  }
+  return text;
+}
+
 /// Whether all values of a knob are without effect, so that its rows are folded into one line.
 bool changes_nothing(const Ledger& ledger, std::string_view knob) {
   std::size_t values = 0;
@@ -184,7 +197,7 @@ std::string ledger_table(const Ledger& ledger) {
   }
   std::string text = head(ledger.header);
   for (const Line& line : lines) text += aligned(line, widths);
-  text += judgements(ledger.rows);
+  text += judgements(ledger.rows) + model_errors(ledger.rows);
   text += without_effect(ledger);
   if (!ledger.cameras.empty())
     text += formatted(

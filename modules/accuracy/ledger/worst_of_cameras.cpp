@@ -22,6 +22,8 @@ LedgerRow worst_row(const std::vector<const LedgerRow*>& rows) {
   for (const LedgerRow* row : rows) {
     if (worst.wrong.empty()) worst.wrong = row->wrong;
     worst.gpu_bytes = std::max(worst.gpu_bytes, row->gpu_bytes);
+    if (row->effect_model && (!worst.effect_model || row->effect_model->flip.mean > worst.effect_model->flip.mean))
+      worst.effect_model = row->effect_model;
     if (row->ratio > worst.ratio) {
       worst.ratio = row->ratio;
       std::tie(worst.ratio_low, worst.ratio_high) = std::tie(row->ratio_low, row->ratio_high);

@@ -81,6 +81,11 @@ std::vector<TableColumn> table_columns(const Ledger& ledger) {
     columns.push_back({"Whole frame, FLIP", true, [](const ReportData&, const LedgerRow& row) {
                          return number_cell(row.whole ? std::optional(row.whole->flip.mean) : std::nullopt);
                        }});
+  if (std::ranges::any_of(ledger.rows, [](const LedgerRow& row) { return row.effect_model.has_value(); }))
+    columns.push_back({"Effect’s model, FLIP", true, [](const ReportData&, const LedgerRow& row) {
+                         return number_cell(row.effect_model ? std::optional(row.effect_model->flip.mean)
+                                                             : std::nullopt);
+                       }});
   columns.push_back(
       {"Module CPU, ms", true, [](const ReportData&, const LedgerRow& row) { return number_cell(row.module_cpu_ms); }});
   columns.push_back({"Module passes, ms", true,
@@ -152,7 +157,8 @@ std::string table_section(const ReportData& data) {
          "median over "
          "pairs of neighbouring frames, with its 95 % interval. At edges: the mean over the pixels within two of an "
          "edge of the reference. Whole frame: against the frame with every knob at its "
-         "most exact value. Module times are those of the knob’s module alone, on "
+         "most exact value. Effect’s model: against a picture that does not share the model. Module times are those of "
+         "the knob’s module alone, on "
          "the "
          "wall.</p>\n</section>\n";
 }

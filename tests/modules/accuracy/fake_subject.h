@@ -65,10 +65,14 @@ class FakeSubject final : public CostSubject {
   }
   [[nodiscard]] Result<std::uint64_t> gpu_bytes() override { return std::uint64_t{knobs_.value(kSamples)} * 100; }
   [[nodiscard]] Result<FramePictures> read() override { return pictures(brightness()); }
-  [[nodiscard]] Result<FramePictures> draw_reference(const ReferenceInfo&, const FramePictures& frame,
+  [[nodiscard]] Result<FramePictures> draw_reference(const ReferenceInfo& info, const FramePictures& frame,
                                                      std::uint32_t samples) override {
-    ++references_drawn;
     expect_last_frame_of_knobs();
+    if (info.name == kModelName) {
+      ++models_drawn;
+      return pictures(0.5 + 0.1 / samples);
+    }
+    ++references_drawn;
     return reference(frame, samples);
   }
 
@@ -90,6 +94,8 @@ class FakeSubject final : public CostSubject {
             .picture = {kSide, kSide, std::vector<std::uint8_t>(kSide * kSide * 4, encoded)}};
   }
 
+  static constexpr const char* kModelName = "no model";  ///< ReferenceInfo::model_name; it has a brightness of 0.5
+  int models_drawn = 0;
   int frames_drawn = 0;
   std::vector<int> frames_before_settling;  ///< for each call
   int counted_frames = 0;

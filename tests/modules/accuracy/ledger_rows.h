@@ -49,6 +49,8 @@ inline LedgerRow full_row(std::uint32_t seed = 1) {
   row.no_effect = seed % 3 == 1;
   row.gpu_bytes = 0x1234567890abcull + seed;
   row.on_front = seed % 2 == 1;
+  if (seed % 3 == 1)
+    row.effect_model = EffectModelError{"rays, \"marched\"", {number(random), number(random)}, number(random), 1e-5};
   return row;
 }
 

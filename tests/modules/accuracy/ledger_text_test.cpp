@@ -84,13 +84,14 @@ TEST(ledger_json, reads_ledgers_of_the_same_version_without_later_keys) {
   json.erase("points");
   json.erase("model");
   for (auto& row : json["rows"])
-    for (const char* later :
-         {"wall_ms", "ratio_interval", "ratio_sure_interval", "pairs", "picture", "no_effect", "whole_frame"})
+    for (const char* later : {"wall_ms", "ratio_interval", "ratio_sure_interval", "pairs", "picture", "no_effect",
+                              "whole_frame", "effect_model"})
       row.erase(later);
   for (auto& row : json["rows"]) row["error"].erase("edges");
   const auto read = parse_ledger_json(json.dump());
   ASSERT_TRUE(read.ok()) << read.error().message;
-  EXPECT_TRUE(read->points.empty() && !read->model && !read->rows[0].whole && !read->rows[0].edges);
+  EXPECT_TRUE(read->points.empty() && !read->model && !read->rows[0].whole && !read->rows[0].edges &&
+              !read->rows[0].effect_model);
   EXPECT_EQ(read->rows[0].ratio, full_ledger().rows[0].ratio);
   EXPECT_EQ(read->rows[0].ratio_high, read->rows[0].ratio) << "an interval of one point";
 }
@@ -200,6 +201,12 @@ TEST(ledger_csv, reads_back_what_it_wrote) {
     expect_number("edge_flip_p99", row.edges ? std::optional(row.edges->flip.p99) : std::nullopt);
     expect_number("edge_psnr_db", row.edges ? std::optional(row.edges->psnr_db) : std::nullopt);
     expect_number("edge_share", row.edges ? std::optional(row.edges->share) : std::nullopt);
+    const auto& model = row.effect_model;
+    EXPECT_EQ(cell("effect_model"), model ? model->name : "");
+    expect_number("effect_model_flip_mean", model ? std::optional(model->flip.mean) : std::nullopt);
+    expect_number("effect_model_flip_p99", model ? std::optional(model->flip.p99) : std::nullopt);
+    expect_number("effect_model_rmse", model ? std::optional(model->rmse) : std::nullopt);
+    expect_number("effect_model_noise", model ? std::optional(model->noise) : std::nullopt);
   }
 }
 
@@ -303,6 +310,20 @@ TEST(ledger_table, shows_the_error_at_edges_if_a_row_has_one) {
   const std::string table = ledger_table({.rows = {row}});
   EXPECT_THAT(table, HasSubstr("FLIP p99  at edges"));
   EXPECT_THAT(table, HasSubstr("0.100000  0.250000"));
+}
+
+TEST(ledger_table, tells_how_far_the_default_s_frame_is_from_what_the_effect_s_model_approximates) {
+  LedgerRow row = bare_row();
+  row.is_default = true;
+  row.flip = ErrorPair{0.01, 0.1};
+  EXPECT_THAT(ledger_table({.rows = {row}}), Not(HasSubstr("the effect's model")));
+  row.effect_model = EffectModelError{"marched rays", {0.25, 0.5}, 2.5, 0.001};
+  const std::string line =
+      row.knob + "=" + row.value +
+      ": the effect's model differs by mean FLIP 0.250000 (noise 0.001000), RMSE 2.5 cd/m² from marched rays\n";
+  EXPECT_THAT(ledger_table({.rows = {row}}), HasSubstr(line));
+  row.is_default = false;
+  EXPECT_THAT(ledger_table({.rows = {row}}), Not(HasSubstr("the effect's model")));
 }
 
 TEST(ledger_table, of_nothing_is_a_head) { EXPECT_THAT(ledger_table({}), HasSubstr("knob")); }

@@ -289,6 +289,30 @@ TEST_F(MeasureCosts, a_twin_follows_each_value) {
   }
 }
 
+TEST_F(MeasureCosts, an_effects_model_is_judged_beside_each_value_s_own_error) {
+  judge_by({.knob = "fake.samples", .kind = "traced", .name = "sums"});
+  subject_.reference = [](const FramePictures& frame, std::uint32_t) -> Result<FramePictures> { return frame; };
+  for (const LedgerRow& row : measure().rows) EXPECT_FALSE(row.effect_model);
+  subject_.references_.front().draw_model = [](const ReferenceInput&) -> Result<FramePictures> {
+    return FramePictures{};
+  };
+  subject_.references_.front().model_name = FakeSubject::kModelName;
+  request_.header.frames = 6;  // another identity: rows are measured again
+  const Ledger ledger = measure();
+  EXPECT_EQ(subject_.models_drawn, 2) << "half and all samples";
+  for (const LedgerRow& row : ledger.rows) {
+    ASSERT_TRUE(row.effect_model);
+    EXPECT_EQ(row.effect_model->name, FakeSubject::kModelName);
+    EXPECT_GT(row.effect_model->flip.mean, 0.0);
+    const double samples = std::stod(row.value), drawn = row.value == "64" ? 0.25 : 0.25 + 0.5 / samples;
+    EXPECT_NEAR(row.effect_model->rmse, std::abs(0.5 + 0.1 / 64.0 - drawn), 1e-6);
+    EXPECT_NEAR(*row.rmse, std::abs(0.375 - drawn), 1e-6) << "the value's own error";
+  }
+  request_.header.frames = 7;
+  static_cast<void>(measure());
+  EXPECT_EQ(subject_.models_drawn, 2) << "the picture is kept";
+}
+
 TEST_F(MeasureCosts, a_reference_that_fails_names_the_row) {
   judge_by({.knob = "fake.samples", .kind = "traced", .name = "sums"});
   subject_.reference = [](const FramePictures&, std::uint32_t) -> Result<FramePictures> {

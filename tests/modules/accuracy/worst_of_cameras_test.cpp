@@ -44,6 +44,14 @@ TEST(WorstOfCameras, every_figure_is_from_the_camera_where_it_is_worst) {
   EXPECT_EQ(worst.cameras[1].camera, "far");
 }
 
+TEST(WorstOfCameras, the_effect_s_model_is_judged_by_the_camera_where_it_is_worst) {
+  Ledger near = ledger("near", {row("b", 0.5, 1.0, "near b")}), far = ledger("far", {row("b", 0.0, 1.0, "far b")});
+  far.rows[0].effect_model = EffectModelError{"marched rays", {0.25, 0.5}, 2.5, 0.0};
+  EXPECT_EQ(worst_of_cameras({near, far}).rows[0].effect_model, far.rows[0].effect_model);
+  near.rows[0].effect_model = EffectModelError{"marched rays", {0.125, 0.75}, 7.5, 0.0};
+  EXPECT_EQ(worst_of_cameras({near, far}).rows[0].effect_model, far.rows[0].effect_model);
+}
+
 TEST(WorstOfCameras, a_value_that_is_dearer_in_one_camera_is_on_no_front) {
   const Ledger near = ledger("near", {row("a", 0.5, 0.5, "near a"), row("b", 0.0, 1.0, "near b")});
   const Ledger far = ledger("far", {row("a", 0.5, 2.0, "far a"), row("b", 0.0, 1.0, "far b")});
