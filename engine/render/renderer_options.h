@@ -10,6 +10,7 @@
 
 namespace gloam {
 
+class PipelineProgress;
 class ZoneRecorder;
 namespace gpu {
 class Device;
@@ -28,8 +29,9 @@ struct RendererOptions {
   gpu::Device* device = nullptr;
   JobExecutor* executor = nullptr;
   LogSink* log = nullptr;
-  ZoneRecorder* zones = nullptr;  ///< may be null
-  ModuleList modules;             ///< in the order of the module graph
+  ZoneRecorder* zones = nullptr;         ///< may be null
+  PipelineProgress* progress = nullptr;  ///< told of the pipelines that frames wait for; may be null
+  ModuleList modules;                    ///< in the order of the module graph
   Readiness readiness = Readiness::wait;
   /// With Readiness::background: most bytes of changed meshes and images that one frame uploads, ≥ 1 (SceneAssets).
   /// With Readiness::wait a frame shows all changes that were made before it.

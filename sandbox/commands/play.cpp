@@ -11,12 +11,8 @@
 #include "sandbox/play/display/window_pictures.h"
 #include "sandbox/play/player.h"
 #include "sandbox/play/settings.h"
-#include "sandbox/play/start/loading_screen.h"
+#include "sandbox/play/start/interrupts.h"
 #include "sandbox/play/start/scene_opening.h"
-#include "sandbox/session/drawing/frame_tracing.h"
-#include "sandbox/session/drawing/session_budget.h"
-#include "sandbox/session/drawing/short_ledger.h"
-#include "sandbox/session/loading/kept_ledger.h"
 #include "sandbox/session/loading/scene_loading.h"
 #include "sandbox/session/results/run_output.h"
 #include "sandbox/session/session.h"
@@ -40,57 +36,14 @@ Status leave_results(const CommandContext& context, Session& session, const Play
   return write_reports(run, options, context.console);
 }
 
-/// Sets the budgets of --budget. Frames of a scene without a ledger of its own are measured for some seconds, which the
-/// window shows. Returns false if the user closes the window meanwhile.
-Result<bool> choose_budgets(Session& session, const Options& options, LogSink& log, Window& window,
-                            LoadingScreen& screen) {
-  if (!has_budget(options)) return true;
-  auto own = find_own_ledger(session, options);
-  if (!own) return own.error();
-  if (*own || !options.budget_ms) {
-    const Status set = *own ? set_budgets(session, options, **own, log) : set_budgets(session, options, log);
-    return set.ok() ? Result<bool>(true) : set.error();
-  }
-  bool closed = false;
-  const auto show = [&](std::size_t done, std::size_t total) -> Status {
-    closed = window.poll().leave || window.should_close();
-    if (closed) return Error{ErrorKind::failed, "the window was closed"};
-    return screen.show({"measuring settings for --budget", done, total});
-  };
-  Options drawn = options;
-  drawn.width = window.width();
-  drawn.height = window.height();
-  auto ledger = measure_session_shortly(session, drawn, show);
-  if (closed) return false;
-  if (!ledger) return ledger.error();
-  if (const Status kept = keep_ledger(*ledger, options); !kept.ok()) log.warning(kept.error().message);
-  const Status set = set_budgets(session, drawn, {std::move(ledger).value(), "the short ledger"}, log);
-  return set.ok() ? Result<bool>(true) : set.error();
-}
-
 /// Shows one scene in the window. Returns the scene to show next; empty: the user has left.
 Result<std::string> play_scene(const CommandContext& context, Window& window, Player::Lasting& lasting) {
   const Options& options = context.options;
-  auto device = open_device(options, context.log,
-                            {.extensions = window.vulkan_extensions(), .create_surface = window.surface_maker()});
-  if (!device) return device.error();
-  const auto session = open_empty_session(std::move(device).value(), options, context.log);
+  const auto session = open_in_window(window, options, lasting.scale, *lasting.interrupts, context.log);
   if (!session) return session.error();
   const auto swapchain = gpu::create_swapchain(*session.value()->device, window.surface_maker());
   if (!swapchain) return swapchain.error();
   WindowPictures pictures(window, **swapchain);
-  {
-    LoadingScreen screen(*session.value()->device, pictures, window.content_scale());
-    const auto go_on = open_scene(**session, options, context.log, window, screen);
-    if (!go_on) return go_on.error();
-    const auto chosen = *go_on ? choose_budgets(**session, options, context.log, window, screen) : go_on;
-    if (!chosen) return chosen.error();
-    if (!*chosen) {
-      GLOAM_TRY(session.value()->renderer->wait());
-      return std::string();
-    }
-  }
-  GLOAM_TRY(check_shown_live(*session.value()->renderer, options.view));
   Player player(options, **session, pictures, lasting, context.log);
   GLOAM_TRY(player.run());
   if (player.next_scene().empty()) GLOAM_TRY(leave_results(context, **session, player));
@@ -139,6 +92,7 @@ void apply_settings(const PlaySettings& settings, Options& options) {
 
 Status run_play(const CommandContext& context) {
   PlayFigures figures(PlayFigures::Clock::now());
+  const Interrupts interrupts;
   Options options = context.options;
   GLOAM_TRY(check_scene_exists(options.scene));
   auto script = read_script(options.script);
@@ -153,7 +107,8 @@ Status run_play(const CommandContext& context) {
   Player::Lasting lasting = {.figures = std::move(figures),
                              .scale = options.scale,
                              .panel = settings.panel || environment_text("GLOAM_PANEL") == "1",
-                             .script = std::move(*script)};
+                             .script = std::move(*script),
+                             .interrupts = &interrupts};
   const auto keep = [&] {
     if (const auto [width, height] = window.desktop_size(); width > 0 && !window.is_full_screen()) {
       settings.width = width;

@@ -23,20 +23,10 @@ namespace {
 constexpr double kRadiansPerPixel = 0.003;
 constexpr double kStickRadians = 1.8;  // per second
 constexpr double kFastFactor = 5.0;
-constexpr double kLongestStep = 0.1;  // seconds: limits the time step after a pause
-// A frame's time that the automatic scale aims at. Software devices must keep 10 frames a second.
-constexpr double kSoftwareBudgetMs = 85.0;
-constexpr double kGpuBudgetMs = 20.0;
-// Pixels of the first frames on a software device, which take about 80 ms for them.
-constexpr double kSoftwarePixels = 115000.0;
-constexpr double kGpuPixels = 1e9;
-constexpr std::uint32_t kSmallestSide = 16;
-constexpr std::uint32_t kFramesBetweenFits = 30;  // a fit waits for a frame
-
-std::uint32_t scaled(std::uint32_t size, double scale) {
-  const auto pixels = static_cast<std::uint32_t>(std::lround(size * scale));
-  return std::clamp(pixels, std::min(kSmallestSide, size), size);
-}
+constexpr double kLongestStep = 0.1;                        // seconds: limits the time step after a pause
+constexpr std::chrono::milliseconds kPatienceAtClose(100);  // for a frame to end after the window was closed
+constexpr std::chrono::milliseconds kLongFrame(400);        // after this the window's title says what is being done
+constexpr std::uint32_t kFramesBetweenFits = 30;            // a fit waits for a frame
 
 }  // namespace
 
@@ -48,7 +38,7 @@ Player::Player(const Options& options, Session& session, WindowPictures& picture
       log_(log),
       orbit_(session),
       on_software_(session.device->info().type == gpu::DeviceType::cpu),
-      scale_(on_software_ ? kSoftwareBudgetMs : kGpuBudgetMs, lasting.scale),
+      scale_(scale_limits(on_software_).budget_ms, lasting.scale),
       upscaler_(*session.device),
       panel_(session, pictures.window().content_scale(), lasting.panel),
       wipe_(session),
@@ -62,6 +52,7 @@ Status Player::run() {
   Window& window = pictures_.window();
   std::uint32_t frames = 0;
   while (options_.frames == 0 || frames < options_.frames) {
+    leave_at_signal();
     WindowInput input = poll();
     count_step();
     adapt_to_time();
@@ -172,9 +163,14 @@ void Player::show_camera(std::uint32_t number) {
 /// out/<scene>-NNN.png. A file that cannot be written is a warning.
 Status Player::save_screenshot() {
   session_.set_clock(time_s_, 0.0);
-  auto sample = session_.render_frame({.settings = settings_, .target = {}});
-  if (!sample) return sample.error();
-  const std::vector<FrameSample> samples = {std::move(sample).value()};
+  std::vector<FrameSample> samples;
+  const auto draw_whole = [&]() -> Status {
+    auto sample = session_.render_frame({.settings = settings_, .target = {}});
+    if (!sample) return sample.error();
+    samples.push_back(std::move(sample).value());
+    return {};
+  };
+  GLOAM_TRY(run_beside(draw_whole));
   std::string path;
   std::error_code fault;
   for (int number = 1; path.empty() || std::filesystem::exists(path, fault); ++number) {
@@ -290,28 +286,84 @@ Result<bool> Player::draw() {
   if (settings_.width != pictures_.width() || settings_.height != pictures_.height() || drawn_scale_ == 0.0) {
     settings_.width = pictures_.width();
     settings_.height = pictures_.height();
-    scale_.start(settings_.width, settings_.height, on_software_ ? kSoftwarePixels : kGpuPixels);
+    scale_.start(settings_.width, settings_.height, scale_limits(on_software_).first_pixels);
   }
   const bool stands = paused_ && !step_once_;
   const double dt_s = stands ? 0.0 : options_.fixed_step || step_once_ ? options_.dt_s : step_s_;
   session_.set_clock(time_s_, dt_s);
   const auto asked = request();
   if (!asked) return asked.error();
-  GLOAM_TRY(render(*asked));
-  const auto shown = pictures_.present();
-  if (shown.ok() && *shown) {
+  bool shown = false;
+  const auto draw_and_show = [&]() -> Status {
+    GLOAM_TRY(render(*asked));
+    const auto presented = pictures_.present();
+    if (!presented) return presented.error();
+    shown = *presented;
+    return {};
+  };
+  GLOAM_TRY(run_beside(draw_and_show));
+  if (shown) {
     time_s_ += dt_s;
     step_once_ = settings_.camera_cut = false;
   }
   return shown;
 }
 
+Status Player::run_beside(std::function<Status()> work) {
+  const auto since = std::chrono::steady_clock::now();
+  const Status done = beside_.run(std::move(work), [&] { answer(since); });
+  if (!title_.empty()) pictures_.window().set_title("gloam: " + options_.scene);
+  title_.clear();
+  return done;
+}
+
+void Player::answer(std::chrono::steady_clock::time_point since) {
+  Window& window = pictures_.window();
+  if (window.pump()) window.toggle_full_screen();
+  leave_at_signal();
+  const auto now = std::chrono::steady_clock::now();
+  if (window.should_close()) {
+    window.hide();
+    if (!closed_) closed_ = now;
+    if (now - *closed_ > kPatienceAtClose && !leaves_results()) leave(0);
+  }
+  if (now - since < kLongFrame) return;
+  const PipelineProgress::State compiled = session_.pipelines.state();
+  std::string title = "gloam: ";
+  if (compiled.total == 0)
+    title += "drawing";
+  else
+    title += "compiling " + compiled.name + ", " + std::to_string(compiled.done + 1) + " of " +
+             std::to_string(compiled.total);
+  if (title == title_) return;
+  title_ = std::move(title);
+  window.set_title(title_);
+}
+
+void Player::leave_at_signal() {
+  const int number = lasting_.interrupts == nullptr ? 0 : lasting_.interrupts->arrived();
+  if (number != 0) leave(kSignalExit + number);
+}
+
+/// Keeps changes and ends the process, which may be compiling or drawing.
+void Player::leave(int code) {
+  panel_.keep_changes(options_.scene, log_);
+  if (lasting_.keep) lasting_.keep();
+  end_process(code);
+}
+
+/// Whether something is written or checked after the last frame.
+bool Player::leaves_results() const {
+  const Options& o = options_;
+  return o.frames > 0 || !o.out.empty() || !o.stats.empty() || !o.trace.empty() || o.pick || o.validate;
+}
+
 /// The next frame's view: drawn into the window's picture, or at a reduced size and then enlarged into it.
 Result<ViewRequest> Player::request() {
   ViewRequest request = {.settings = settings_, .target = {}, .keep_linear = false};
   const double scale = this->scale();
-  request.settings.width = scaled(settings_.width, scale);
-  request.settings.height = scaled(settings_.height, scale);
+  request.settings.width = scaled_side(settings_.width, scale);
+  request.settings.height = scaled_side(settings_.height, scale);
   if (scale != drawn_scale_ && drawn_scale_ != 0.0) session_.renderer->free_idle_memory();
   drawn_scale_ = scale;
   if (request.settings.width == settings_.width && request.settings.height == settings_.height) {
@@ -349,8 +401,8 @@ Status Player::add_overlays(FrameGraph& graph, ImageRef& window) {
 Status Player::count_shown(bool first) {
   if (options_.frames == 0) return {};
   if (first) GLOAM_TRY(session_.renderer->wait());
-  lasting_.figures.add(PlayFigures::Clock::now(), scaled(settings_.width, drawn_scale_),
-                       scaled(settings_.height, drawn_scale_), drawn_scale_);
+  lasting_.figures.add(PlayFigures::Clock::now(), scaled_side(settings_.width, drawn_scale_),
+                       scaled_side(settings_.height, drawn_scale_), drawn_scale_);
   return {};
 }
 

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +21,8 @@
 #include "sandbox/play/input/orbit_controls.h"
 #include "sandbox/play/panel.h"
 #include "sandbox/play/shader_reload.h"
+#include "sandbox/play/start/interrupts.h"
+#include "sandbox/play/start/work_beside.h"
 #include "sandbox/session/session.h"
 #include "sandbox/window/fly_camera.h"
 #include "sandbox/window/input_script.h"
@@ -35,6 +39,7 @@ class Player {
     bool panel = false;  ///< the panel is shown
     InputScript script;
     std::function<void()> keep = {};  ///< called when `scale` or `panel` has changed
+    const Interrupts* interrupts = nullptr;
   };
 
   /// The arguments must outlive it. session: with its scene.
@@ -72,6 +77,13 @@ class Player {
   [[nodiscard]] double scale() const;
   void reload_shaders();
   [[nodiscard]] Result<bool> draw();
+  /// Runs work that may wait for the driver or the GPU on another thread, while the window answers.
+  [[nodiscard]] Status run_beside(std::function<Status()> work);
+  /// Handles what cannot wait for the frame: full screen, closing, signals. since: begin of the frame.
+  void answer(std::chrono::steady_clock::time_point since);
+  void leave_at_signal();
+  [[noreturn]] void leave(int code);
+  [[nodiscard]] bool leaves_results() const;
   [[nodiscard]] Result<ViewRequest> request();
   [[nodiscard]] Status show_enlarged(FrameGraph& graph, ImageRef picture);
   /// The exact side of the wipe, and the panel over it.
@@ -104,7 +116,10 @@ class Player {
   bool paused_ = false;
   bool step_once_ = false;
   std::string next_scene_;
-  bool shown_ = false;               ///< the last turn showed a picture
+  bool shown_ = false;  ///< the last turn showed a picture
+  std::string title_;   ///< of the window while a frame takes long; empty: its usual one
+  std::optional<std::chrono::steady_clock::time_point> closed_;  ///< when the user closed the window
+  WorkBeside beside_;
   std::string fitted_view_;          ///< the visualizer that views.range=fit is at; empty: none
   std::uint32_t frames_to_fit_ = 0;  ///< before its range is chosen
 };

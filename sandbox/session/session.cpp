@@ -25,6 +25,7 @@ Status open_renderer(Session& session, const Options& options, LogSink& log, Mod
                                     .executor = session.executor.get(),
                                     .log = &log,
                                     .zones = &session.zones,
+                                    .progress = &session.pipelines,
                                     .modules = std::move(modules)});
   if (!renderer) return renderer.error();
   session.renderer = std::move(renderer).value();

@@ -14,6 +14,7 @@
 #include "engine/ecs/world.h"
 #include "engine/gpu/device.h"
 #include "engine/jobs/executor.h"
+#include "engine/render/pipelines/pipeline_progress.h"
 #include "engine/render/renderer.h"
 #include "engine/scene/gltf/import.h"
 #include "sandbox/options.h"
@@ -27,6 +28,7 @@ struct Session {
   std::unique_ptr<JobExecutor> executor;
   std::shared_ptr<gpu::Device> device;  ///< shared: sessions may follow one another on one device
   ZoneRecorder zones;
+  PipelineProgress pipelines;  ///< of the frame that is being drawn, also of bakes
   std::unique_ptr<Renderer> renderer;
   World world;
   SceneInfo info;

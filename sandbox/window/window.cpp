@@ -120,8 +120,8 @@ int script_key(const std::string& name) {
 
 struct Window::State {
   GLFWwindow* window = nullptr;
-  Strikes strikes;
-  Strikes injected;
+  Strikes strikes;   ///< of the last poll
+  Strikes arriving;  ///< since then
   Scripted scripted;
   double mouse_x = 0.0;
   double mouse_y = 0.0;
@@ -191,7 +191,7 @@ Result<std::unique_ptr<Window>> Window::open(const std::string& title, std::uint
   state->window = glfwCreateWindow(static_cast<int>(width), static_cast<int>(height), title.c_str(), nullptr, nullptr);
   if (state->window == nullptr) return Error{ErrorKind::failed, "the window cannot be opened: " + glfw_reason()};
   glfwGetCursorPos(state->window, &state->mouse_x, &state->mouse_y);
-  listen(state->window, state->strikes);
+  listen(state->window, state->arriving);
   return std::unique_ptr<Window>(new Window(std::move(state)));
 }
 
@@ -213,18 +213,12 @@ std::function<std::uint64_t(void* instance)> Window::surface_maker() const {
 }
 
 void Window::State::take_events() {
-  strikes = {};
   if (size().first == 0 && glfwWindowShouldClose(window) == GLFW_FALSE) {
     glfwWaitEventsTimeout(0.1);
   } else {
     glfwPollEvents();
   }
-  strikes.keys |= injected.keys;
-  strikes.buttons |= injected.buttons;
-  strikes.wheel += injected.wheel;
-  strikes.text += injected.text;
-  strikes.dropped.insert(strikes.dropped.end(), injected.dropped.begin(), injected.dropped.end());
-  injected = {};
+  strikes = std::exchange(arriving, {});
 }
 
 void Window::State::move_pointer(WindowInput& input) {
@@ -285,10 +279,10 @@ void Window::inject(const ScriptEvent& event) {
   if (is_key && key == GLFW_KEY_UNKNOWN) return;
   switch (event.kind) {
     case Kind::key:
-      s.injected.keys.set(static_cast<std::size_t>(key));
+      s.arriving.keys.set(static_cast<std::size_t>(key));
       break;
     case Kind::hold:
-      s.injected.keys.set(static_cast<std::size_t>(key));
+      s.arriving.keys.set(static_cast<std::size_t>(key));
       s.scripted.keys.set(static_cast<std::size_t>(key));
       break;
     case Kind::release:
@@ -298,24 +292,24 @@ void Window::inject(const ScriptEvent& event) {
       s.scripted.pointer = {event.x, event.y};
       break;
     case Kind::press:
-      s.injected.buttons.set(GLFW_MOUSE_BUTTON_LEFT);
+      s.arriving.buttons.set(GLFW_MOUSE_BUTTON_LEFT);
       s.scripted.left = true;
       break;
     case Kind::lift:
       s.scripted.left = false;
       break;
     case Kind::grab:
-      s.injected.buttons.set(GLFW_MOUSE_BUTTON_RIGHT);
+      s.arriving.buttons.set(GLFW_MOUSE_BUTTON_RIGHT);
       s.scripted.right = true;
       break;
     case Kind::let_go:
       s.scripted.right = false;
       break;
     case Kind::scroll:
-      s.injected.wheel += event.y;
+      s.arriving.wheel += event.y;
       break;
     case Kind::type:
-      s.injected.text.append(event.text.begin(), event.text.end());
+      s.arriving.text.append(event.text.begin(), event.text.end());
       break;
     case Kind::resize:
       glfwSetWindowSize(s.window, static_cast<int>(event.x), static_cast<int>(event.y));
@@ -325,7 +319,7 @@ void Window::inject(const ScriptEvent& event) {
       s.scripted.minimised = event.kind == Kind::minimise;
       break;
     case Kind::drop:
-      s.injected.dropped.push_back(event.text);
+      s.arriving.dropped.push_back(event.text);
       break;
     case Kind::close:
       glfwSetWindowShouldClose(s.window, GLFW_TRUE);
@@ -336,6 +330,13 @@ void Window::inject(const ScriptEvent& event) {
     case Kind::until:
       break;
   }
+}
+
+bool Window::pump() {
+  glfwPollEvents();
+  const bool full_screen = state_->arriving.keys[GLFW_KEY_F11];
+  state_->arriving.keys.reset(GLFW_KEY_F11);
+  return full_screen;
 }
 
 bool Window::should_close() const { return glfwWindowShouldClose(state_->window) == GLFW_TRUE; }

@@ -64,6 +64,9 @@ class Window {
   /// Handles events and returns the input since the last call. While the window is minimised, waits up to 0.1 s for an
   /// event instead of spinning.
   [[nodiscard]] WindowInput poll();
+  /// Handles events while this thread waits for other work; poll() returns their input later. Returns whether F11 was
+  /// pressed, which poll() then leaves out.
+  bool pump();
   /// Whether the user closed the window.
   [[nodiscard]] bool should_close() const;
   /// Size in pixels; 0 × 0 while minimised.

@@ -7,6 +7,7 @@
 
 #include "engine/core/result.h"
 #include "engine/jobs/executor.h"
+#include "engine/render/pipelines/pipeline_progress.h"
 #include "engine/render/pipelines/pipelines.h"
 
 namespace gloam::declare {
@@ -20,8 +21,8 @@ class DuePipelines {
   [[nodiscard]] const gpu::PipelineHandle* add(const gpu::ComputePipelineDesc& desc) { return add_any(desc); }
   [[nodiscard]] const gpu::PipelineHandle* add(const gpu::GraphicsPipelineDesc& desc) { return add_any(desc); }
   /// Compiles what was added since begin_frame(), largest shader first. On errors, the error of the pipeline added
-  /// first.
-  [[nodiscard]] Status make_all(Pipelines& pipelines, JobExecutor& executor);
+  /// first. progress: may be null.
+  [[nodiscard]] Status make_all(Pipelines& pipelines, JobExecutor& executor, PipelineProgress* progress);
 
  private:
   struct Due {

@@ -44,7 +44,7 @@ FrameBuilder& PassFrames::begin() {
 
 Status PassFrames::compile() {
   GLOAM_TRY(frame_->status());
-  GLOAM_TRY(declared_.due_pipelines.make_all(pipelines_, *executor_));
+  GLOAM_TRY(declared_.due_pipelines.make_all(pipelines_, *executor_, nullptr));
   return graph_.compile();
 }
 

@@ -13,7 +13,8 @@ Status record_graph(gpu::CommandList& commands, RendererParts& parts) {
   ZoneRecorder* zones = parts.options.zones;
   {
     const ScopedZone zone(zones, "make_pipelines", "engine");
-    GLOAM_TRY(parts.resources.declared.due_pipelines.make_all(parts.resources.pipelines, *parts.options.executor));
+    GLOAM_TRY(parts.resources.declared.due_pipelines.make_all(parts.resources.pipelines, *parts.options.executor,
+                                                              parts.options.progress));
   }
   {
     const ScopedZone zone(zones, "compile_frame_graph", "engine");

@@ -3,6 +3,7 @@
 #include "sandbox/play/display/resolution_scale.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/core/assert.h"
 #include "sandbox/session/results/summary.h"
@@ -81,6 +82,18 @@ void ResolutionScale::change_to(std::size_t step) {
   step_ = step;
   times_.clear();
   unjudged_ = kUnjudged;
+}
+
+ScaleLimits scale_limits(bool on_software) {
+  // Software devices must keep 10 frames a second; a frame of the first pixels takes them about 80 ms.
+  return on_software ? ScaleLimits{.budget_ms = 85.0, .first_pixels = 115000.0}
+                     : ScaleLimits{.budget_ms = 20.0, .first_pixels = 1e9};
+}
+
+std::uint32_t scaled_side(std::uint32_t size, double scale) {
+  constexpr std::uint32_t kSmallestSide = 16;
+  const auto pixels = static_cast<std::uint32_t>(std::lround(size * scale));
+  return std::clamp(pixels, std::min(kSmallestSide, size), size);
 }
 
 }  // namespace gloam

@@ -55,4 +55,14 @@ class ResolutionScale {
   std::array<std::uint64_t, kSteps.size()> blocked_until_ = {};
 };
 
+/// Limits of the automatic scale on a kind of device.
+struct ScaleLimits {
+  double budget_ms = 0.0;     ///< a frame's time that automatic changes aim at
+  double first_pixels = 0.0;  ///< most pixels of the first frames
+};
+[[nodiscard]] ScaleLimits scale_limits(bool on_software);
+
+/// Width or height at which a frame is drawn. size: of the window, > 0.
+[[nodiscard]] std::uint32_t scaled_side(std::uint32_t size, double scale);
+
 }  // namespace gloam

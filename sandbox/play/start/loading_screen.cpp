@@ -6,6 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "sandbox/session/session.h"
 
 namespace gloam {
 namespace {
@@ -30,8 +33,25 @@ void add_clear_pass(FrameGraph& graph, ImageRef& picture) {
 
 }  // namespace
 
-LoadingScreen::LoadingScreen(gpu::Device& device, WindowPictures& pictures, double scale)
-    : device_(device), pictures_(pictures), gui_(scale), graph_(device) {}
+LoadingScreen::LoadingScreen(std::unique_ptr<gpu::Device> device, std::unique_ptr<gpu::Swapchain> swapchain,
+                             Window& window)
+    : device_(std::move(device)),
+      swapchain_(std::move(swapchain)),
+      pictures_(window, *swapchain_),
+      gui_(window.content_scale()),
+      graph_(*device_) {}
+
+Result<std::unique_ptr<LoadingScreen>> LoadingScreen::open(Window& window, const Options& options, LogSink& log) {
+  Options own = options;
+  own.cache_dir.clear();  // the scene's device writes that file
+  auto device =
+      open_device(own, log, {.extensions = window.vulkan_extensions(), .create_surface = window.surface_maker()});
+  if (!device) return device.error();
+  auto swapchain = gpu::create_swapchain(**device, window.surface_maker());
+  if (!swapchain) return swapchain.error();
+  return std::unique_ptr<LoadingScreen>(
+      new LoadingScreen(std::move(device).value(), std::move(swapchain).value(), window));
+}
 
 void LoadingScreen::lay_out(const LoadingStep& step) {
   const auto width = static_cast<float>(pictures_.width());
@@ -63,17 +83,17 @@ void LoadingScreen::lay_out(const LoadingStep& step) {
   gui_.end();
 }
 
-Status LoadingScreen::declare(FrameGraph& graph, bool& shown) {
+Status LoadingScreen::declare(bool& shown) {
   const auto image = pictures_.acquire();
   if (!image.ok()) return image.error();
   shown = static_cast<bool>(*image);
-  graph.begin();
+  graph_.begin();
   if (shown) {
-    ImageRef picture = graph.import_image("window", *image, gpu::Access::none, gpu::Access::present);
-    add_clear_pass(graph, picture);
-    GLOAM_TRY(renderer_->add_pass(graph, picture, gui_.draw_data()));
+    ImageRef picture = graph_.import_image("window", *image, gpu::Access::none, gpu::Access::present);
+    add_clear_pass(graph_, picture);
+    GLOAM_TRY(renderer_->add_pass(graph_, picture, gui_.draw_data()));
   }
-  return graph.compile();
+  return graph_.compile();
 }
 
 Status LoadingScreen::show(const LoadingStep& step) {
@@ -81,20 +101,20 @@ Status LoadingScreen::show(const LoadingStep& step) {
   if (!visible.ok()) return visible.error();
   if (!*visible) return {};
   if (renderer_ == nullptr) {
-    auto renderer = PanelRenderer::create(device_, gui_.font());
+    auto renderer = PanelRenderer::create(*device_, gui_.font());
     if (!renderer.ok()) return renderer.error();
     renderer_ = std::move(renderer).value();
   }
   lay_out(step);
-  auto commands = device_.begin_frame();
+  auto commands = device_->begin_frame();
   if (!commands.ok()) return commands.error();
   bool shown = false;
-  if (const Status declared = declare(graph_, shown); !declared.ok()) {
-    static_cast<void>(device_.abandon_frame());
+  if (const Status declared = declare(shown); !declared.ok()) {
+    static_cast<void>(device_->abandon_frame());
     return declared;
   }
   graph_.execute(**commands);
-  GLOAM_TRY(device_.submit_frame());
+  GLOAM_TRY(device_->submit_frame());
   const auto presented = pictures_.present();
   return presented.ok() ? Status() : Status(presented.error());
 }

@@ -2,18 +2,22 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
+
 #include "engine/core/log.h"
 #include "engine/core/result.h"
 #include "sandbox/options.h"
-#include "sandbox/play/start/loading_screen.h"
+#include "sandbox/play/start/interrupts.h"
 #include "sandbox/session/session.h"
+#include "sandbox/window/window.h"
 
 namespace gloam {
 
-/// Fills a session made by open_empty_session, with captures and baked light, while the window shows the progress and
-/// handles events. Returns false if the user closes the window meanwhile: the window is hidden at once, and the session
-/// must not be drawn.
-[[nodiscard]] Result<bool> open_scene(Session& session, const Options& options, LogSink& log, Window& window,
-                                      LoadingScreen& screen);
+/// Opens a session with its scene, captures, baked light and budgets, and draws a first frame that is not shown, so
+/// that all pipelines are compiled. All of this runs on another thread; meanwhile the window shows the progress by name
+/// and handles events. If the user closes the window, or at a signal, the process ends at once.
+/// scale: ResolutionScale::setting.
+[[nodiscard]] Result<std::unique_ptr<Session>> open_in_window(Window& window, const Options& options, double scale,
+                                                              const Interrupts& interrupts, LogSink& log);
 
 }  // namespace gloam

@@ -59,8 +59,11 @@ std::string cached_captures(const Session& session, const Options& options, std:
 
 Result<ReflectionCaptures> bake_scene(Session& session, const Options& options, LogSink& log,
                                       const BakeProgress& progress) {
-  auto renderer = Renderer::create(
-      {.device = session.device.get(), .executor = session.executor.get(), .log = &log, .modules = make_all_modules()});
+  auto renderer = Renderer::create({.device = session.device.get(),
+                                    .executor = session.executor.get(),
+                                    .log = &log,
+                                    .progress = &session.pipelines,
+                                    .modules = make_all_modules()});
   if (!renderer) return renderer.error();
   World world;
   (*renderer)->prepare_world(world);
