@@ -69,7 +69,8 @@ Status PlayPanel::update(WindowInput& input, const PanelFrame& frame, ViewSettin
   };
   // A budget of whole frames chooses the scale.
   const bool chosen = renderer.budget().has_value();
-  const double drawn_at = chosen ? view_scale(renderer.knobs()) : scale.scale();
+  const double moving = chosen ? view_scale(renderer.knobs()) : scale.scale();
+  const double drawn_at = controls.drawn_scale > 0.0 ? controls.drawn_scale : moving;
   PanelContent content = {.knobs = renderer.knobs(),
                           .times = times_,
                           .modules = report.modules,
@@ -77,6 +78,7 @@ Status PlayPanel::update(WindowInput& input, const PanelFrame& frame, ViewSettin
                           .visualizer = view.visualizer,
                           .show = show,
                           .scale = drawn_at,
+                          .scale_note = controls.scale_note,
                           .scale_setting = scale.setting(),
                           .scale_steps = ResolutionScale::kSteps,
                           .notice = notice_,

@@ -32,6 +32,8 @@ struct PlayControls {
   std::function<void(bool paused)> pause = {};
   std::function<void(std::uint32_t number)> show_camera = {};  ///< from 1 on
   std::function<void(const std::string& text)> copy = {};      ///< to the clipboard
+  double drawn_scale = 0.0;     ///< of the last frame; 0: there was none, or the chosen scale
+  std::string scale_note = {};  ///< PanelContent::scale_note
   PanelWipe wipe = {};
   std::function<void(bool on, float at)> set_wipe = {};
 };

@@ -26,7 +26,10 @@ constexpr double kFastFactor = 5.0;
 constexpr double kLongestStep = 0.1;                        // seconds: limits the time step after a pause
 constexpr std::chrono::milliseconds kPatienceAtClose(100);  // for a frame to end after the window was closed
 constexpr std::chrono::milliseconds kLongFrame(400);        // after this the window's title says what is being done
-constexpr std::uint32_t kFramesBetweenFits = 30;            // a fit waits for a frame
+// Frames after one of full size whose times may still contain it or the change of size.
+constexpr std::uint32_t kUnjudgedAfterFull = gpu::Device::kFramesInFlight + 2;
+constexpr double kKeptPictureS = 0.05;
+constexpr std::uint32_t kFramesBetweenFits = 30;  // a fit waits for a frame
 
 }  // namespace
 
@@ -40,6 +43,7 @@ Player::Player(const Options& options, Session& session, WindowPictures& picture
       on_software_(session.device->info().type == gpu::DeviceType::cpu),
       scale_(scale_limits(on_software_).budget_ms, lasting.scale),
       upscaler_(*session.device),
+      kept_picture_(*session.device),
       panel_(session, pictures.window().content_scale(), lasting.panel),
       wipe_(session),
       shaders_(options.shaders),
@@ -64,8 +68,9 @@ Status Player::run() {
     GLOAM_TRY(obey(input));
     if (!next_scene_.empty()) break;
     drop_view_without_its_knob();
-    GLOAM_TRY(choose_heat_range());
     GLOAM_TRY(move_camera(input));
+    choose_refinement(input);
+    GLOAM_TRY(choose_heat_range());
     const auto drawn = draw();
     if (!drawn) return drawn.error();
     shown_ = *drawn;
@@ -92,6 +97,8 @@ PlayControls Player::controls() {
           .pause = [this](bool paused) { pause(paused); },
           .show_camera = [this](std::uint32_t number) { show_camera(number); },
           .copy = [this](const std::string& text) { pictures_.window().copy(text); },
+          .drawn_scale = drawn_scale_,
+          .scale_note = scale_note(),
           .wipe = wipe_.shown(),
           .set_wipe = [this](bool on, float at) { set_wipe(on, at); }};
 }
@@ -112,6 +119,8 @@ void Player::set_wipe(bool on, float at) {
 
 WindowInput Player::poll() {
   play_script();
+  // Nothing changes in the window: it is only drawn again in case something has covered it.
+  if (next_ == Refinement::Next::kept && !active_) pictures_.window().wait(kKeptPictureS);
   return pictures_.window().poll();
 }
 
@@ -181,7 +190,7 @@ Status Player::save_screenshot() {
   const Status written = write_picture({.session = session_, .view = settings_, .samples = samples}, path);
   if (!written.ok()) log_.warning(written.error().message);
   pictures_.window().set_title(written.ok() ? "gloam: wrote " + path : "gloam: " + options_.scene);
-  drawn_scale_ = -1.0;  // the next frame has another size
+  drawn_scale_ = 1.0;
   return {};
 }
 
@@ -211,6 +220,7 @@ void Player::drop_view_without_its_knob() {
 
 /// With views.range=fit the scale follows the picture: at once after a change of the view, then now and then.
 Status Player::choose_heat_range() {
+  if (next_ != Refinement::Next::reduced) return {};  // a new range would be a new picture
   Renderer& renderer = *session_.renderer;
   const std::string& shown = settings_.visualizer;
   if (!fits_heat_range(renderer.knobs()) || !shows_heat(renderer, shown)) {
@@ -255,13 +265,47 @@ void Player::adapt_to_time() {
   Renderer& renderer = *session_.renderer;
   const FrameReport report = renderer.report();
   const double ms = on_software_ ? frame_s_ * 1e3 : report.gpu_ms;
-  const bool judged = wipe_.judges_frame();
+  const bool own = unjudged_ == 0;
+  if (unjudged_ > 0) --unjudged_;
+  const bool judged = wipe_.judges_frame() && own;
   if (!options_.budget_ms && judged) scale_.add(ms);
   for (const BudgetDecision& told : add_frame_times(renderer, {.ms = ms, .judged = judged, .view = views_}, report))
     panel_.tell(budget_text(told.decision, *renderer.budget(told.effect)), false);
 }
 
-double Player::scale() const { return options_.budget_ms ? view_scale(session_.renderer->knobs()) : scale_.scale(); }
+double Player::moving_scale() const {
+  return options_.budget_ms ? view_scale(session_.renderer->knobs()) : scale_.scale();
+}
+
+double Player::scale() const { return next_ == Refinement::Next::reduced ? moving_scale() : 1.0; }
+
+void Player::choose_refinement(const WindowInput& input) {
+  active_ = !(input.panel == last_panel_input_);
+  last_panel_input_ = input.panel;
+  const bool stands = (paused_ && !step_once_) || (options_.fixed_step && options_.dt_s == 0.0);
+  const bool moves = !stands && scene_moves(session_);
+  // A chosen scale stays, as does that of a budget, whose setting the window shows; and so do measured runs.
+  const bool wanted = scale_.setting() == 0.0 && !options_.budget_ms && options_.frames == 0;
+  if (!wanted || moves || wipe_.shown().on || moving_scale() == 1.0) {
+    refinement_.restart();
+    next_ = Refinement::Next::reduced;
+    return;
+  }
+  PictureMoment moment = picture_moment(session_, settings_, stands ? time_s_ : 0.0);
+  moment.numbers.push_back(static_cast<double>(reloads_));
+  next_ = refinement_.next(moment, frame_s_, active_);
+  if (next_ != Refinement::Next::reduced) unjudged_ = kUnjudgedAfterFull;
+}
+
+std::string Player::scale_note() const {
+  if (moving_scale() == 1.0) return {};
+  if (options_.budget_ms) return "the budget chooses the scale, also at rest";
+  if (scale_.setting() > 0.0) return {};
+  if (next_ != Refinement::Next::reduced)
+    return "at rest: full size; " + scale_text(moving_scale(), moving_scale()) + " when something moves";
+  if (!paused_ && scene_moves(session_)) return "the scene moves; pause it to see it at full size";
+  return "full size when nothing moves";
+}
 
 /// Draws with the shaders that were changed; the panel shows why one cannot be used.
 void Player::reload_shaders() {
@@ -275,6 +319,7 @@ void Player::reload_shaders() {
     if (!replaced.ok() && fault.empty()) fault = replaced.error().message;
   }
   if (!fault.empty()) log_.warning(fault);
+  ++reloads_;
   panel_.tell(fault.empty() ? std::to_string(count) + (count == 1 ? " shader" : " shaders") + " compiled again" : fault,
               !fault.empty());
 }
@@ -287,15 +332,18 @@ Result<bool> Player::draw() {
     settings_.width = pictures_.width();
     settings_.height = pictures_.height();
     scale_.start(settings_.width, settings_.height, scale_limits(on_software_).first_pixels);
+    refinement_.restart();
+    next_ = Refinement::Next::reduced;
   }
   const bool stands = paused_ && !step_once_;
   const double dt_s = stands ? 0.0 : options_.fixed_step || step_once_ ? options_.dt_s : step_s_;
   session_.set_clock(time_s_, dt_s);
-  const auto asked = request();
+  const bool again = next_ == Refinement::Next::kept && upscaler_.kept_image();
+  const auto asked = again ? ViewRequest() : request();
   if (!asked) return asked.error();
   bool shown = false;
   const auto draw_and_show = [&]() -> Status {
-    GLOAM_TRY(render(*asked));
+    GLOAM_TRY(again ? show_again() : render(*asked));
     const auto presented = pictures_.present();
     if (!presented) return presented.error();
     shown = *presented;
@@ -303,6 +351,7 @@ Result<bool> Player::draw() {
   };
   GLOAM_TRY(run_beside(draw_and_show));
   if (shown) {
+    if (next_ == Refinement::Next::full) refinement_.shown_full();
     time_s_ += dt_s;
     step_once_ = settings_.camera_cut = false;
   }
@@ -366,7 +415,8 @@ Result<ViewRequest> Player::request() {
   request.settings.height = scaled_side(settings_.height, scale);
   if (scale != drawn_scale_ && drawn_scale_ != 0.0) session_.renderer->free_idle_memory();
   drawn_scale_ = scale;
-  if (request.settings.width == settings_.width && request.settings.height == settings_.height) {
+  const bool keeps = next_ == Refinement::Next::full;
+  if (!keeps && request.settings.width == settings_.width && request.settings.height == settings_.height) {
     upscaler_.release();
     request.target.after = gpu::Access::present;
     request.target.acquire = [this] { return pictures_.acquire(); };
@@ -380,6 +430,11 @@ Result<ViewRequest> Player::request() {
   request.target.after = gpu::Access::fragment_read;
   request.target.overlay = [this](FrameGraph& graph, ImageRef& picture) { return show_enlarged(graph, picture); };
   return request;
+}
+
+Status Player::show_again() {
+  return kept_picture_.draw(pictures_, upscaler_,
+                            [this](FrameGraph& graph, ImageRef& window) { return add_overlays(graph, window); });
 }
 
 Status Player::show_enlarged(FrameGraph& graph, ImageRef picture) {

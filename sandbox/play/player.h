@@ -14,6 +14,8 @@
 #include "sandbox/options.h"
 #include "sandbox/output/frame_sample.h"
 #include "sandbox/play/budget/wipe.h"
+#include "sandbox/play/display/kept_picture.h"
+#include "sandbox/play/display/refinement.h"
 #include "sandbox/play/display/resolution_scale.h"
 #include "sandbox/play/display/upscaler.h"
 #include "sandbox/play/display/window_pictures.h"
@@ -73,8 +75,13 @@ class Player {
   [[nodiscard]] Status move_camera(const WindowInput& input);
   /// Tells the budget, or else the automatic scale, how long the frame took.
   void adapt_to_time();
-  /// Share of the window's width and height that the next frame is drawn at.
+  /// Share of the window's width and height that frames are drawn at while something moves.
+  [[nodiscard]] double moving_scale() const;
+  /// The same of the next frame.
   [[nodiscard]] double scale() const;
+  /// Whether the next frame is drawn at the window's size because nothing moves.
+  void choose_refinement(const WindowInput& input);
+  [[nodiscard]] std::string scale_note() const;
   void reload_shaders();
   [[nodiscard]] Result<bool> draw();
   /// Runs work that may wait for the driver or the GPU on another thread, while the window answers.
@@ -85,6 +92,7 @@ class Player {
   [[noreturn]] void leave(int code);
   [[nodiscard]] bool leaves_results() const;
   [[nodiscard]] Result<ViewRequest> request();
+  [[nodiscard]] Status show_again();
   [[nodiscard]] Status show_enlarged(FrameGraph& graph, ImageRef picture);
   /// The exact side of the wipe, and the panel over it.
   [[nodiscard]] Status add_overlays(FrameGraph& graph, ImageRef& window);
@@ -104,6 +112,13 @@ class Player {
   double drawn_scale_ = 0.0;  ///< of the last frame; 0: none yet
   std::uint64_t views_ = 0;   ///< camera cuts so far, for the budget
   Upscaler upscaler_;
+  KeptPicture kept_picture_;
+  Refinement refinement_;
+  Refinement::Next next_ = Refinement::Next::reduced;
+  std::uint32_t unjudged_ = 0;   ///< frames whose times say nothing about the reduced scale
+  std::uint64_t reloads_ = 0;    ///< of shaders
+  PanelInput last_panel_input_;  ///< of the last frame
+  bool active_ = false;          ///< the input has changed since then
   PlayPanel panel_;
   Wipe wipe_;
   bool wipe_paused_ = false;  ///< the wipe has paused the scene

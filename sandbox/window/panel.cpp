@@ -180,7 +180,11 @@ void Panel::show_scale(const PanelContent& content, const PanelFrame& frame) {
   ImGui::AlignTextToFramePadding();
   ImGui::Text("drawn at %.0f x %.0f", std::round(frame.width * content.scale),
               std::round(frame.height * content.scale));
-  if (!content.set_scale) return;
+  if (content.set_scale) show_scale_choice(content);
+  if (!content.scale_note.empty()) ImGui::TextDisabled("%s", content.scale_note.c_str());
+}
+
+void Panel::show_scale_choice(const PanelContent& content) {
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-1.0f);
   const bool open = ImGui::BeginCombo("##scale", scale_text(content.scale_setting, content.scale).c_str());

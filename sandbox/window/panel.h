@@ -33,8 +33,9 @@ struct PanelContent {
   std::string visualizer;  ///< the current visualizer: NAME or NAME:ARGUMENT
   /// Changes the visualizer. The panel shows the error if it fails.
   std::function<Status(const std::string& visualizer)> show;
-  double scale = 1.0;          ///< of the frame's width and height to the window's
-  double scale_setting = 1.0;  ///< 0: automatic
+  double scale = 1.0;           ///< of the frame's width and height to the window's
+  std::string scale_note = {};  ///< why the scale is as it is; empty: no note
+  double scale_setting = 1.0;   ///< 0: automatic
   std::span<const double> scale_steps = {};
   std::function<void(double setting)> set_scale = {};  ///< empty: the scale is shown only
   const PanelScene* scene = nullptr;                   ///< null: not shown
@@ -78,6 +79,7 @@ class Panel {
  private:
   void show_times(const FrameTimes& times);
   void show_scale(const PanelContent& content, const PanelFrame& frame);
+  void show_scale_choice(const PanelContent& content);
   void show_views(const PanelContent& content);
   void show_heat_scale(const PanelContent& content, const HeatScale& heat);
   void show_view_argument(const PanelContent& content, const VisualizerInfo& info);

@@ -49,6 +49,7 @@ struct PanelInput {
   bool shift = false;
   bool alt = false;
   std::u32string text;  ///< typed since the last frame
+  bool operator==(const PanelInput&) const = default;
 };
 
 }  // namespace gloam

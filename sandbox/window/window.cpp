@@ -339,6 +339,8 @@ bool Window::pump() {
   return full_screen;
 }
 
+void Window::wait(double seconds) { glfwWaitEventsTimeout(seconds); }
+
 bool Window::should_close() const { return glfwWindowShouldClose(state_->window) == GLFW_TRUE; }
 std::uint32_t Window::width() const { return static_cast<std::uint32_t>(state_->size().first); }
 std::uint32_t Window::height() const { return static_cast<std::uint32_t>(state_->size().second); }

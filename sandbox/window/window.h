@@ -67,6 +67,8 @@ class Window {
   /// Handles events while this thread waits for other work; poll() returns their input later. Returns whether F11 was
   /// pressed, which poll() then leaves out.
   bool pump();
+  /// Waits until an event arrives, this long at most; poll() returns its input later.
+  void wait(double seconds);
   /// Whether the user closed the window.
   [[nodiscard]] bool should_close() const;
   /// Size in pixels; 0 × 0 while minimised.

@@ -3,17 +3,10 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
-#include <vector>
+
+#include "sandbox/play/display/picture_moment.h"
 
 namespace gloam {
-
-/// What a picture shows, apart from the knobs that budgets set: pictures of equal moments can be compared.
-struct PictureMoment {
-  std::vector<double> numbers;  ///< of camera, time, lights, knobs
-  std::string visualizer;
-  bool operator==(const PictureMoment&) const = default;
-};
 
 /// Decides in which frames the exact picture of a wipe is drawn. It takes kFrames frames, so that effects which
 /// accumulate over frames settle. The first picture is drawn as soon as the moment is that of the last frame; after

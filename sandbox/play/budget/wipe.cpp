@@ -4,11 +4,8 @@
 
 #include <algorithm>
 
-#include "engine/ecs/view.h"
-#include "engine/scene/resources.h"
-#include "modules/depth_of_field/components.h"
-#include "modules/lights/components.h"
 #include "sandbox/play/budget/budget_controls.h"
+#include "sandbox/play/display/picture_moment.h"
 #include "sandbox/session/program_knobs.h"
 
 namespace gloam {
@@ -41,7 +38,7 @@ PanelWipe Wipe::shown() const {
 }
 
 Result<std::optional<ViewRequest>> Wipe::due(const ViewSettings& view, double time_s, double scale, double frame_s) {
-  if (!on_ || !timing_.next(moment(view, time_s), frame_s)) return std::optional<ViewRequest>();
+  if (!on_ || !timing_.next(picture_moment(session_, view, time_s), frame_s)) return std::optional<ViewRequest>();
   ViewSettings exact = view;
   exact.id = kExactView;
   exact.camera_cut = timing_.begins();
@@ -70,34 +67,6 @@ bool Wipe::judges_frame() {
   if (unjudged_ == 0) return true;
   --unjudged_;
   return false;
-}
-
-PictureMoment Wipe::moment(const ViewSettings& view, double time_s) const {
-  const World& world = session_.world;
-  ViewSettings seen = view;
-  if (seen.follow_camera) follow_camera(world, seen);
-  const auto& environment = world.resource<SceneEnvironment>();
-  PictureMoment moment = {.numbers = {time_s, static_cast<double>(view.width), static_cast<double>(view.height),
-                                      view.heat_range, seen.camera.fov_y, seen.camera.half_height_m,
-                                      environment.has_exposure ? 1.0 : 0.0, environment.exposure_ev100},
-                          .visualizer = view.visualizer};
-  std::vector<double>& numbers = moment.numbers;
-  for (int column = 0; column < 4; ++column)
-    for (int row = 0; row < 4; ++row) numbers.push_back(seen.world_from_camera[column][row]);
-  if (const auto* lens = world.try_get<DepthOfField>(session_.camera)) {
-    numbers.push_back(lens->focus_m);
-    numbers.push_back(lens->f_number);
-  }
-  world.view<const Light>().each([&](const Light& light) { numbers.push_back(light.intensity); });
-  const std::vector<BudgetState> budgets = session_.renderer->budgets();
-  const KnobRegistry& knobs = session_.renderer->knobs();
-  for (const Knob& knob : knobs.knobs()) {
-    const bool governed = std::ranges::any_of(budgets, [&](const BudgetState& budget) {
-      return std::ranges::find(budget.governed, knob.name) != budget.governed.end();
-    });
-    if (!governed) numbers.push_back(knobs.number(knob));
-  }
-  return moment;
 }
 
 }  // namespace gloam

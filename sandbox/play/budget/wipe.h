@@ -38,8 +38,6 @@ class Wipe {
   [[nodiscard]] bool judges_frame();
 
  private:
-  [[nodiscard]] PictureMoment moment(const ViewSettings& view, double time_s) const;
-
   Session& session_;
   ExactPicture picture_;
   ExactTiming timing_;

@@ -22,6 +22,8 @@ class Upscaler {
   /// The image for a view of this size, made anew if the size changes: a ViewTarget::image to be left ready for
   /// gpu::Access::fragment_read. Call it between frames. Its values are sRGB-encoded by the shader that draws it.
   [[nodiscard]] Result<gpu::ImageHandle> image(std::uint32_t width, std::uint32_t height);
+  /// The image of the last image(); a null handle after release().
+  [[nodiscard]] gpu::ImageHandle kept_image() const { return image_; }
   /// Frees the image.
   void release();
 

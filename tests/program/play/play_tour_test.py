@@ -102,6 +102,19 @@ class PlayTour(WindowCase):
         config = json.loads((self.folder / "out/shadows.unsaved.config.json").read_text(encoding="utf-8"))
         self.assertEqual(config["shadows.mode"], "off")
 
+    def test_a_picture_at_rest_is_refined_to_full_size(self):
+        # More pixels than the first frames on a software device have.
+        run = self.start("builtin:shadows", "--size", "480x320", "--dt", "0", "--validate",
+                         script="hold w\nwait 3\nrelease w\nkey 1\nwait 40\nsay rested\nuntil rested.seen\n" +
+                         "hold w\nwait 3\nsay moving\nrelease w\nuntil moving.seen\nkey 1\nwait 40\n" +
+                         "say again\nuntil again.seen\nclose\n")
+        rested, _, again = (run.photograph_at(name) for name in ("rested", "moving", "again"))
+        self.assertEqual(run.end(), "")
+        self.expect(0, "render", "builtin:shadows", "--size", "480x320", "--time", "0", "--dt", "0", "--out", "full.png")
+        full = read_png(self.folder / "full.png")
+        self.assertLessEqual(rested.differences(full)[0], 1, "what render draws")
+        self.assertLessEqual(again.differences(full)[0], 1)
+
     def test_the_camera_orbits_approaches_and_looks_at_points(self):
         run = self.start("builtin:shadows", *SIZE, "--dt", "0", "--validate",
                          script=stop("begin") + "move 120 80\nscroll 4\n" + stop("near") + "scroll -4\n" + stop("back") +
