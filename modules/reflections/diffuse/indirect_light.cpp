@@ -133,7 +133,7 @@ std::vector<shaders::DiffuseProbe> diffuse_probes(const World& world, const Rend
 
 bool has_diffuse_light(const World& world) {
   const auto* captures = world.try_resource<ReflectionCaptures>();
-  return world.view<const CubeProbe>().size() > 0 || (captures != nullptr && !captures->grid.empty()) ||
+  return (captures != nullptr && !(captures->grid.empty() && captures->probe_diffuse.empty())) ||
          world.try_resource<TracedIndirect>() != nullptr;
 }
 

@@ -10,9 +10,11 @@
 #include <utility>
 
 #include "engine/core/hash.h"
+#include "engine/ecs/view.h"
 #include "engine/scene/resources.h"
 #include "modules/accuracy/module.h"
 #include "modules/module_list/module_list.h"
+#include "modules/reflections/components.h"
 #include "sandbox/output/progress_bar.h"
 #include "sandbox/session/baking/particle_light.h"
 #include "sandbox/session/loading/scene_loading.h"
@@ -89,9 +91,10 @@ Result<ReflectionCaptures> bake_scene(Session& session, const Options& options, 
 }
 
 Status ensure_captures(Session& session, const Options& options, LogSink& log, const BakeProgress& progress) {
-  const bool wanted = wants_captures(session);
+  const bool indirect = wants_probes(session);
+  const bool wanted = wants_captures(session) || (indirect && session.world.view<const CubeProbe>().size() > 0);
   // A grid of probes (bake --probes) may have been kept for a scene that demands no captures itself.
-  if (!wanted && !wants_probes(session)) return {};
+  if (!wanted && !indirect) return {};
   const std::uint64_t content = capture_content(session.world);
   if (auto kept = load_kept(session, options, content, log)) {
     attach_captures(session.world, std::move(*kept));
