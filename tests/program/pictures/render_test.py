@@ -192,6 +192,15 @@ class Render(ProgramCase):
             pictures.add(self.bytes_of("view.png"))
         self.assertEqual(len(pictures), len(LIGHT_VIEWS))
 
+    def test_pictures_of_references_are_views(self):
+        """Fog with the light of lamps, and glare as the whole picture scatters it: both differ from the frame, and without glare
+        the view of glare is the frame itself above its legend."""
+        self.expect(0, "render", "builtin:dusk", *SMALL, *NO_SHADOWS, "--out", "frame.png")
+        for view in ("fog_reference", "glare_reference"):
+            self.expect(0, "render", "builtin:dusk", *SMALL, *NO_SHADOWS, "--view", view, "--validate", "--out", f"{view}.png")
+            self.assertNotEqual(self.bytes_of(f"{view}.png"), self.bytes_of("frame.png"))
+        self.assertNotEqual(self.bytes_of("fog_reference.png"), self.bytes_of("glare_reference.png"))
+
     def test_views_of_lights_need_a_light_and_lists(self):
         self.expect(2, "render", "builtin:lanterns", *SMALL, "--view", "light_list:nobody", says="nobody")
         self.expect(2, "render", "builtin:lanterns", *SMALL, "--view", "light_culling", says="light_culling")
