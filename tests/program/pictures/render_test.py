@@ -192,13 +192,13 @@ class Render(ProgramCase):
             pictures.add(self.bytes_of("view.png"))
         self.assertEqual(len(pictures), len(LIGHT_VIEWS))
 
-    def test_pictures_of_references_are_views(self):
-        """Fog with the light of lamps, and glare as the whole picture scatters it: both differ from the frame, and without glare
-        the view of glare is the frame itself above its legend."""
-        self.expect(0, "render", "builtin:dusk", *SMALL, *NO_SHADOWS, "--out", "frame.png")
+    def test_references_of_fog_and_glare_are_views(self):
         for view in ("fog_reference", "glare_reference"):
-            self.expect(0, "render", "builtin:dusk", *SMALL, *NO_SHADOWS, "--view", view, "--validate", "--out", f"{view}.png")
-            self.assertNotEqual(self.bytes_of(f"{view}.png"), self.bytes_of("frame.png"))
+            run = self.run_program("render", "builtin:dusk", *SMALL, *NO_SHADOWS, "--view", view, "--validate", "--out", f"{view}.png")
+            if run.returncode != 0 and "layer" in run.stderr:
+                self.skipTest(run.stderr.strip())
+            self.assertEqual(run.returncode, 0, run.stderr)
+            self.assertNotIn("VUID", run.stderr)
         self.assertNotEqual(self.bytes_of("fog_reference.png"), self.bytes_of("glare_reference.png"))
 
     def test_views_of_lights_need_a_light_and_lists(self):
