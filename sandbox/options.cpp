@@ -58,6 +58,9 @@ void add_frame_options(CLI::App& app, Options& options, RawTexts& raw) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_option("--config", options.config, "Set knobs from a JSON object {\"KNOB\": VALUE}; --set overrides it")
       ->type_name("FILE");
+  app.add_option("--lights", options.lights,
+                 "Change lights of the scene by a JSON file, as the panel of play saves it (docs/play.md)")
+      ->type_name("FILE");
   app.add_option("--view", options.view, "Visualizer to show instead of the lit picture")->type_name("VISUALIZER");
   app.add_option("--pick", raw.pick, "Print details about a pixel: depth, lights, lists, shadows")->type_name("X,Y");
   app.add_option("--animation", options.animation, "Clip to play if several clips animate the same property")

@@ -54,6 +54,20 @@ double directional_illuminance_at(const VisibleLights& visible, std::size_t ligh
   return luminance(l.color / visible.light_scale) * std::max(-glm::dot(dvec3(normal), dvec3(l.direction)), 0.0);
 }
 
+std::vector<LightOnPoint> illuminance_at(const World& world, ViewId view, const vec3& point, const vec3& normal) {
+  std::vector<LightOnPoint> lights;
+  const auto* visible = world.try_view_resource<VisibleLights>(view);
+  if (visible == nullptr) return lights;
+  const auto add = [&](Entity entity, double lux) {
+    if (lux > 0.0) lights.push_back({entity, lux});
+  };
+  for (std::uint32_t i = 0; i < visible->block.directional_count; ++i)
+    add(visible->directional_entities[i], directional_illuminance_at(*visible, i, normal));
+  for (std::uint32_t i = 0; i < visible->block.local_count; ++i)
+    add(visible->local_entities[i], local_illuminance_at(*visible, i, point, normal));
+  return lights;
+}
+
 bool wide_highlights(const KnobRegistry& knobs) { return knobs.try_value(kEmitterHighlights).value_or(false); }
 
 void read_light_lists(ShaderPass& pass, const LightsOutputs& lights) {

@@ -68,6 +68,7 @@ Status play_scenes(const CommandContext& context, Window& window, Player::Lastin
     options.scene = *next;
     options.camera.clear();  // camera and animation are names of the first scene
     options.animation.clear();
+    options.lights.clear();
     window.set_title("gloam: " + options.scene);
   }
 }

@@ -12,6 +12,8 @@
 #include "modules/module_list/module_list.h"
 #include "sandbox/output/file_io.h"
 #include "sandbox/play/input/orbit_controls.h"
+#include "sandbox/play/input/panel_settings.h"
+#include "sandbox/play/input/view_projection.h"
 #include "sandbox/session/drawing/frame_tracing.h"
 #include "sandbox/session/loading/scene_loading.h"
 #include "sandbox/session/program_knobs.h"
@@ -31,7 +33,7 @@ PlayPanel::PlayPanel(Session& session, double scale, bool shown)
       scale_(scale),
       shown_(shown),
       budgets_(*session.renderer),
-      lights_(session.world),
+      lights_(session),
       visualizers_(session.renderer->visualizers()) {
   const auto& names = session.world.resource<SceneNames>();
   for (const Entity camera : session.info.cameras) cameras_.emplace_back(names.name_of(camera));
@@ -86,7 +88,9 @@ Status PlayPanel::update(WindowInput& input, const PanelFrame& frame, ViewSettin
   if (!chosen) content.set_scale = [&](double setting) { scale.set(setting); };
   const PanelScene scene = scene_of(controls, view);
   if (controls.pause) content.scene = &scene;
-  this->show(input, frame, content, controls);
+  ViewSettings seen = view;
+  if (seen.follow_camera) follow_camera(session_.world, seen);
+  this->show(input, frame, content, controls, seen);
   if (input.clicked && !panel_->wants_mouse() && !report.passes.empty()) pick(input, view, drawn_at);
   if (panel_->wants_mouse()) {
     input.drag_x = input.drag_y = input.orbit_x = input.orbit_y = input.wheel = 0.0;
@@ -103,7 +107,8 @@ Status PlayPanel::update(WindowInput& input, const PanelFrame& frame, ViewSettin
 }
 
 /// The panel with the budgets.
-void PlayPanel::show(WindowInput& input, const PanelFrame& frame, PanelContent& content, const PlayControls& controls) {
+void PlayPanel::show(WindowInput& input, const PanelFrame& frame, PanelContent& content, const PlayControls& controls,
+                     const ViewSettings& view) {
   budgets_.begin();
   const PanelBudgets budgets = {
       .budgets = budgets_.budgets(),
@@ -113,9 +118,18 @@ void PlayPanel::show(WindowInput& input, const PanelFrame& frame, PanelContent& 
       .wipe = controls.wipe,
       .set_wipe = controls.set_wipe};
   if (controls.set_wipe) content.budgets = &budgets;
-  const std::string before = config_text(session_.renderer->knobs());
+  const std::string knobs_before = config_text(session_.renderer->knobs());
+  undo(input.panel);
+  const Settings before = panel_settings(session_, lights_.controls());
+  content.marks = marks(view);
   panel_->update(input.panel, frame, content);
-  if (config_text(session_.renderer->knobs()) != before) {
+  const bool pointer_is_free = !panel_->wants_mouse();
+  if (lights_.steer(input, view, pointer_is_free)) {
+    input.drag_x = input.drag_y = 0.0;
+    input.clicked = false;
+  }
+  undo_.note(before, panel_settings(session_, lights_.controls()), panel_->is_busy() || lights_.drags());
+  if (config_text(session_.renderer->knobs()) != knobs_before) {
     unsaved_ = true;
     asked_to_leave_ = false;
   }
@@ -123,21 +137,12 @@ void PlayPanel::show(WindowInput& input, const PanelFrame& frame, PanelContent& 
 }
 
 PanelScene PlayPanel::scene_of(const PlayControls& controls, const ViewSettings& view) {
-  constexpr const char* kKinds[] = {"point", "spot", "directional"};
-  shown_lights_.clear();
-  for (const ControlledLight& light : lights_.lights())
-    shown_lights_.push_back({.name = light.name,
-                             .kind = kKinds[static_cast<int>(light.kind)],
-                             .unit = light.kind == LightKind::directional ? "lx" : "cd",
-                             .intensity = light.intensity,
-                             .muted = light.muted,
-                             .solo = light.solo});
   const auto& environment = std::as_const(session_.world).resource<SceneEnvironment>();
   const bool automatic = !has_stated_exposure(session_.world);
   const auto* lens = std::as_const(session_.world).try_get<DepthOfField>(session_.camera);
   const auto& cameras = session_.info.cameras;
   const auto shown = view.follow_camera ? std::ranges::find(cameras, session_.camera) : cameras.end();
-  return {.cameras = cameras_,
+  PanelScene scene = {.cameras = cameras_,
           .camera = shown == cameras.end() ? 0 : static_cast<std::uint32_t>(shown - cameras.begin()) + 1,
           .show_camera = controls.show_camera,
           .warnings = warnings_,
@@ -152,10 +157,8 @@ PanelScene PlayPanel::scene_of(const PlayControls& controls, const ViewSettings&
           .f_number = lens != nullptr ? lens->f_number : DepthOfField{}.f_number,
           .picked_m = picked_m_,
           .set_lens = [this](float focus_m, float f_number) { set_lens(focus_m, f_number); },
-          .lights = shown_lights_,
-          .set_intensity = [this](std::size_t light, float value) { lights_.set_intensity(light, value); },
-          .mute = [this](std::size_t light, bool muted) { lights_.mute(light, muted); },
-          .solo = [this](std::size_t light, bool solo) { lights_.solo(light, solo); },
+          .locate = [this, &controls](std::size_t light) { locate(light, controls); },
+          .save_lights = [this, name = controls.scene] { said_ = lights_.save("out/" + scene_stem(name) + ".lights.json"); },
           .picked = picked_,
           .save_config = [this, scene = controls.scene] { save_config(scene); },
           .copy_command =
@@ -164,6 +167,29 @@ PanelScene PlayPanel::scene_of(const PlayControls& controls, const ViewSettings&
                 said_ = "the command line is on the clipboard";
               },
           .said = said_};
+  lights_.fill(scene, view);
+  return scene;
+}
+
+void PlayPanel::locate(std::size_t light, const PlayControls& controls) {
+  if (!controls.fly_to) return;
+  const LightControls& lights = lights_.controls();
+  if (lights.lights()[light].kind == LightKind::directional)
+    controls.look_along(-lights.direction(light));
+  else
+    controls.fly_to(lights.position(light));
+}
+
+/// Ctrl-Z, and Ctrl-Y or Ctrl-Shift-Z.
+void PlayPanel::undo(const PanelInput& input) {
+  const auto is_down = [&](EditKey key) { return input.control && input.keys[static_cast<std::size_t>(key)]; };
+  const bool back = is_down(EditKey::z) && !input.shift;
+  const bool again = is_down(EditKey::y) || (is_down(EditKey::z) && input.shift);
+  const bool struck = (back || again) && !undo_keys_down_;
+  undo_keys_down_ = back || again;
+  if (!struck || panel_->wants_keyboard()) return;
+  const auto settings = back ? undo_.undo() : undo_.redo();
+  if (settings) set_panel_settings(session_, lights_.controls(), *settings);
 }
 
 float PlayPanel::metered_ev100() const {
@@ -199,11 +225,23 @@ void PlayPanel::pick(const WindowInput& input, const ViewSettings& view, double 
   picked_ = lines.ok() ? *lines : std::vector<std::string>{lines.error().message};
   const auto position = session_.renderer->pick_position(session_.world, view.id, pixel->x, pixel->y);
   picked_m_ = 0.0f;
+  picked_place_ = {input.pointer_x, input.pointer_y};
+  picked_position_.reset();
   if (!position.ok() || !*position) return;
+  picked_position_ = **position;
   ViewSettings camera = view;
   if (camera.follow_camera) follow_camera(session_.world, camera);
   const dvec4 seen = glm::inverse(camera.world_from_camera) * dvec4(**position, 1.0);
   picked_m_ = static_cast<float>(-seen.z);
+}
+
+/// Marks of lights, and a cross at the pixel that was picked last; it stays on its surface when the camera moves.
+std::vector<PanelMark> PlayPanel::marks(const ViewSettings& view) const {
+  std::vector<PanelMark> marks = lights_.marks(view);
+  if (picked_.empty()) return marks;
+  const auto place = picked_position_ ? place_in_picture(view, *picked_position_) : std::optional(picked_place_);
+  if (place) marks.push_back({.shape = PanelMark::Shape::cross, .from = *place, .color = {255, 255, 255}});
+  return marks;
 }
 
 void PlayPanel::tell(std::string message, bool urgent) {
@@ -224,13 +262,14 @@ void PlayPanel::save_config(const std::string& scene) {
 }
 
 bool PlayPanel::may_leave(const std::string& scene) {
-  if (!unsaved_ || asked_to_leave_) return true;
+  if (!(unsaved_ || lights_.unsaved()) || asked_to_leave_) return true;
   asked_to_leave_ = true;
-  tell("Changed knobs are not saved. Escape again leaves and writes them to " + config_path(scene, ".unsaved"), true);
+  tell("Changes are not saved. Escape again leaves and writes them to out/" + scene_stem(scene) + ".unsaved.*.json", true);
   return false;
 }
 
 void PlayPanel::keep_changes(const std::string& scene, LogSink& log) {
+  if (lights_.unsaved()) log.info(lights_.save("out/" + scene_stem(scene) + ".unsaved.lights.json"));
   if (!unsaved_) return;
   const std::string path = config_path(scene, ".unsaved");
   const Status written = write_config(path);

@@ -15,10 +15,11 @@
 #include "engine/render/renderer.h"
 #include "sandbox/play/budget/budget_controls.h"
 #include "sandbox/play/display/resolution_scale.h"
-#include "sandbox/play/input/light_controls.h"
+#include "sandbox/play/input/light_panel.h"
 #include "sandbox/session/session.h"
 #include "sandbox/window/panel.h"
 #include "sandbox/window/panel_renderer.h"
+#include "sandbox/window/undo_stack.h"
 #include "sandbox/window/window.h"
 
 namespace gloam {
@@ -34,6 +35,8 @@ struct PlayControls {
   std::function<void(const std::string& text)> copy = {};      ///< to the clipboard
   double drawn_scale = 0.0;     ///< of the last frame; 0: there was none, or the chosen scale
   std::string scale_note = {};  ///< PanelContent::scale_note
+  std::function<void(const dvec3& position)> fly_to = {};       ///< flies the camera near a position
+  std::function<void(const dvec3& direction)> look_along = {};  ///< turns it
   PanelWipe wipe = {};
   std::function<void(bool on, float at)> set_wipe = {};
 };
@@ -72,7 +75,11 @@ class PlayPanel {
 
  private:
   [[nodiscard]] Status open();
-  void show(WindowInput& input, const PanelFrame& frame, PanelContent& content, const PlayControls& controls);
+  void show(WindowInput& input, const PanelFrame& frame, PanelContent& content, const PlayControls& controls,
+            const ViewSettings& view);
+  void undo(const PanelInput& input);
+  void locate(std::size_t light, const PlayControls& controls);
+  [[nodiscard]] std::vector<PanelMark> marks(const ViewSettings& view) const;
   [[nodiscard]] PanelScene scene_of(const PlayControls& controls, const ViewSettings& view);
   void pick(const WindowInput& input, const ViewSettings& view, double scale);
   /// The exposure that the newest finished frame has metered.
@@ -89,12 +96,15 @@ class PlayPanel {
   bool drawn_ = false;  ///< shown by the last update
   FrameTimes times_;
   BudgetControls budgets_;
-  LightControls lights_;
-  std::vector<PanelLight> shown_lights_;
+  LightPanel lights_;
+  UndoStack undo_;
+  bool undo_keys_down_ = false;
   std::vector<std::string> cameras_;
   std::vector<std::string> warnings_;  ///< PanelScene::warnings
   std::vector<std::string> picked_;
   float picked_m_ = 0.0f;  ///< PanelScene::picked_m
+  glm::dvec2 picked_place_ = glm::dvec2(0.0);  ///< in the window
+  std::optional<dvec3> picked_position_;
   std::string said_;
   bool unsaved_ = false;         ///< knobs were changed in the panel since they were saved
   bool asked_to_leave_ = false;  ///< since then

@@ -99,8 +99,29 @@ PlayControls Player::controls() {
           .copy = [this](const std::string& text) { pictures_.window().copy(text); },
           .drawn_scale = drawn_scale_,
           .scale_note = scale_note(),
+          .fly_to = [this](const dvec3& position) { fly_to(position); },
+          .look_along = [this](const dvec3& direction) { look_along(direction); },
           .wipe = wipe_.shown(),
           .set_wipe = [this](bool on, float at) { set_wipe(on, at); }};
+}
+
+/// The camera stays on its side of the position, at most kNear away.
+void Player::fly_to(const dvec3& position) {
+  constexpr double kNear = 3.0;
+  const dvec3 eye = this->eye(), away = eye - position;
+  const double distance = glm::length(away);
+  flight_.fly_to(session_.world, distance > kNear ? position + away * (kNear / distance) : eye, position, settings_);
+}
+
+void Player::look_along(const dvec3& direction) {
+  const dvec3 eye = this->eye();
+  flight_.fly_to(session_.world, eye, eye + direction, settings_);
+}
+
+dvec3 Player::eye() const {
+  ViewSettings seen = settings_;
+  if (seen.follow_camera) follow_camera(session_.world, seen);
+  return dvec3(seen.world_from_camera[3]);
 }
 
 void Player::pause(bool paused) {

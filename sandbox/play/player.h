@@ -64,6 +64,9 @@ class Player {
   void keep_settings();
   [[nodiscard]] Status obey(const WindowInput& input);
   void show_camera(std::uint32_t number);
+  void fly_to(const dvec3& position);
+  void look_along(const dvec3& direction);
+  [[nodiscard]] dvec3 eye() const;
   void pause(bool paused);
   /// The wipe compares pictures of one moment, so it pauses the scene.
   void set_wipe(bool on, float at);

@@ -70,16 +70,43 @@ void FlyCamera::advance(const FlyInput& input, double dt_s) {
   position_ += movement * (kSpeed * input.speed * dt_s);
 }
 
+void ViewFlight::begin(const World& world, ViewSettings& settings) {
+  if (camera_) return;
+  follow_camera(world, settings);
+  settings.follow_camera = false;
+  camera_ = FlyCamera(settings.world_from_camera);
+}
+
+void ViewFlight::fly_to(const World& world, const dvec3& eye, const dvec3& target, ViewSettings& settings) {
+  begin(world, settings);
+  const dmat4 pose = camera_->world_from_camera();
+  const dvec3 from(pose[3]);
+  const double distance = std::max(glm::distance(from, target), kNearestPivot);
+  journey_ = {.from_eye = from, .from_target = from - dvec3(pose[2]) * distance, .eye = eye, .target = target};
+}
+
+void ViewFlight::advance_journey(double dt_s) {
+  Journey& journey = *journey_;
+  journey.gone_s = std::min(journey.gone_s + dt_s, kJourneyS);
+  const double t = journey.gone_s / kJourneyS, share = t * t * (3.0 - 2.0 * t);
+  const dvec3 eye = glm::mix(journey.from_eye, journey.eye, share);
+  dmat4 pose(1.0);
+  pose[3] = dvec4(eye, 1.0);
+  camera_ = FlyCamera(pose);
+  camera_->advance({.look_at_pivot = true, .pivot = glm::mix(journey.from_target, journey.target, share)}, 0.0);
+  if (journey.gone_s == kJourneyS) journey_.reset();
+}
+
 void ViewFlight::advance(const World& world, const FlyInput& input, double dt_s, ViewSettings& settings) {
-  if (!camera_) {
-    const bool moved = input.forward != 0.0 || input.right != 0.0 || input.up != 0.0 || input.turn != 0.0 ||
-                       input.tilt != 0.0 || input.orbit_turn != 0.0 || input.orbit_tilt != 0.0 ||
-                       input.approach != 1.0 || input.look_at_pivot;
-    if (!moved) return;
-    follow_camera(world, settings);
-    settings.follow_camera = false;
-    camera_ = FlyCamera(settings.world_from_camera);
+  const bool moved = input.forward != 0.0 || input.right != 0.0 || input.up != 0.0 || input.turn != 0.0 ||
+                     input.tilt != 0.0 || input.orbit_turn != 0.0 || input.orbit_tilt != 0.0 || input.approach != 1.0 ||
+                     input.look_at_pivot;
+  if (moved) {
+    begin(world, settings);
+    journey_.reset();
   }
+  if (!camera_) return;
+  if (journey_) advance_journey(dt_s);
   camera_->advance(input, dt_s);
   settings.world_from_camera = camera_->world_from_camera();
 }

@@ -53,8 +53,23 @@ class ViewFlight {
   /// Moves the view. The first movement starts at the current pose of the world's camera.
   void advance(const World& world, const FlyInput& input, double dt_s, ViewSettings& settings);
 
+  /// Flies within kJourneyS, from the view's pose, to `eye`, from which it looks at `target`. Input of the user ends it.
+  void fly_to(const World& world, const dvec3& eye, const dvec3& target, ViewSettings& settings);
+
  private:
+  static constexpr double kJourneyS = 0.6;
+  struct Journey {
+    dvec3 from_eye;
+    dvec3 from_target;
+    dvec3 eye;
+    dvec3 target;
+    double gone_s = 0.0;
+  };
+  void begin(const World& world, ViewSettings& settings);
+  void advance_journey(double dt_s);
+
   std::optional<FlyCamera> camera_;  ///< none until the user flies
+  std::optional<Journey> journey_;
 };
 
 }  // namespace gloam

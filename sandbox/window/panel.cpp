@@ -120,6 +120,41 @@ void show_modules(std::span<const ModuleState> modules) {
   ImGui::EndTable();
 }
 
+/// Marks lie below all windows.
+void draw_marks(std::span<const PanelMark> marks, float scale) {
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const auto point = [](const glm::dvec2& at, double x = 0.0, double y = 0.0) {
+    return ImVec2(static_cast<float>(at.x + x), static_cast<float>(at.y + y));
+  };
+  const float radius = 6.0f * scale;
+  const double r = static_cast<double>(radius);
+  for (const PanelMark& mark : marks) {
+    const ImU32 color = IM_COL32(mark.color[0], mark.color[1], mark.color[2], 255);
+    // A dark edge keeps marks visible on a bright picture.
+    for (const auto& [ink, width] : {std::pair(IM_COL32(0, 0, 0, 160), 4.0f * scale), std::pair(color, 1.8f * scale)}) {
+      switch (mark.shape) {
+        case PanelMark::Shape::line:
+          list.AddLine(point(mark.from), point(mark.to), ink, width);
+          break;
+        case PanelMark::Shape::square:
+          list.AddRect(point(mark.from, -r, -r), point(mark.from, r, r), ink, 0.0f, 0, width);
+          break;
+        case PanelMark::Shape::circle:
+          list.AddCircle(point(mark.from), radius, ink, 0, width);
+          break;
+        case PanelMark::Shape::cross:
+          for (const double sign : {-1.0, 1.0}) {
+            list.AddLine(point(mark.from, sign * 3.0), point(mark.from, sign * 2.0 * r), ink, width);
+            list.AddLine(point(mark.from, 0.0, sign * 3.0), point(mark.from, 0.0, sign * 2.0 * r), ink, width);
+          }
+          break;
+      }
+    }
+    const glm::dvec2 at = mark.shape == PanelMark::Shape::line ? mark.to : mark.from;
+    if (!mark.label.empty()) list.AddText(point(at, 1.5 * r, -r), color, mark.label.c_str());
+  }
+}
+
 }  // namespace
 
 void Panel::update(const PanelInput& input, const PanelFrame& frame, const PanelContent& content) {
@@ -148,6 +183,7 @@ void Panel::update(const PanelInput& input, const PanelFrame& frame, const Panel
     show_modules(content.modules);
   }
   ImGui::End();
+  draw_marks(content.marks, gui_.scale());
   gui_.end();
 }
 

@@ -13,6 +13,7 @@
 #include "engine/render/renderer.h"
 #include "sandbox/window/gui.h"
 #include "sandbox/window/panel_budget.h"
+#include "sandbox/window/panel_mark.h"
 #include "sandbox/window/panel_model.h"
 #include "sandbox/window/panel_scene.h"
 
@@ -42,13 +43,16 @@ struct PanelContent {
   const PanelBudgets* budgets = nullptr;               ///< null: not shown
   PanelNotice notice = {};
   float heat_range = 1.0f;  ///< ViewSettings::heat_range
+  std::vector<PanelMark> marks = {};
 };
 
 /// Rectangle of a widget in the last frame, in pixels from the picture's upper left corner.
 struct PanelWidget {
   /// "knobs MODULE", KNOB, "KNOB reset", "KNOB CHOICE", "search", "view", "view VISUALIZER", "view argument", "scale",
   /// "scale auto", "scale NN %", "camera", "camera NAME", "warning", "pause", "exposure auto", "exposure", "lens",
-  /// "lens here", "lens focus", "lens f-number", "pixel", "lights", "LIGHT mute", "LIGHT solo", "LIGHT intensity",
+  /// "lens here", "lens focus", "lens f-number", "pixel", "pixel lists", "lights", "lights by share", "lights search", "save lights",
+  /// LIGHT, "LIGHT color", "LIGHT mute", "LIGHT solo", "LIGHT intensity", "light locate", "light shadows", "light
+  /// cookie", "light range", "light width",
   /// "keep A", "show A", "keep B", "show B", "save config", "copy command", "budget section", "budget", "budget
   /// EFFECT", "lock KNOB", "wipe" or "wipe line"
   std::string name;
@@ -88,7 +92,9 @@ class Panel {
   void show_lens(const PanelScene& scene);
   void show_pixel(const PanelScene& scene);
   void show_lights(const PanelScene& scene);
+  void show_light_table(const PanelScene& scene);
   void show_light(const PanelScene& scene, std::size_t index);
+  void show_light_details(const PanelScene& scene);
   void show_budgets(const PanelBudgets& budgets);
   void show_budget(const PanelBudgets& budgets, std::size_t index);
   void show_budget_knobs(const PanelBudgets& budgets, std::size_t index);
@@ -105,6 +111,9 @@ class Panel {
   std::string asked_;     ///< chosen visualizer that waits for its argument
   std::string argument_;  ///< text typed as the argument
   std::string search_;    ///< text that the shown knobs contain
+  std::string light_search_;
+  bool lights_by_share_ = false;
+  std::size_t selected_light_ = kNoLight;
   KnobSlots slots_;
   std::string fault_;  ///< error of the last chosen visualizer; empty: none
 };

@@ -4,12 +4,13 @@
 
 #include <imgui/imgui.h>
 
+#include <algorithm>
+#include <array>
+
 #include "sandbox/window/panel.h"
 
 namespace gloam {
 namespace {
-
-void show_line(const std::string& text) { ImGui::TextUnformatted(text.data(), text.data() + text.size()); }
 
 std::string camera_label(const PanelScene& scene, std::size_t index) {
   const std::string& name = scene.cameras[index];
@@ -17,6 +18,22 @@ std::string camera_label(const PanelScene& scene, std::size_t index) {
 }
 
 }  // namespace
+
+PickedLines sorted_pick_lines(std::span<const std::string> lines) {
+  constexpr std::array<std::string_view, 7> kSurface = {"pixel ",     "view depth", "base colour", "normal ",
+                                                        "roughness,", "emissive",   "emits"};
+  PickedLines sorted;
+  for (const std::string& line : lines) {
+    const auto begins = [&](std::string_view begin) { return line.starts_with(begin); };
+    if (begins("illuminance"))
+      sorted.shares.push_back(line);
+    else if (lines.size() == 1 || std::ranges::any_of(kSurface, begins))
+      sorted.surface.push_back(line);
+    else
+      sorted.lists.push_back(line);
+  }
+  return sorted;
+}
 
 void Panel::show_settings(const PanelContent& content) {
   bool first = true;
@@ -117,53 +134,15 @@ void Panel::show_pixel(const PanelScene& scene) {
     ImGui::TextDisabled("click a pixel to see its surface and what each light adds");
     return;
   }
-  for (const std::string& line : scene.picked) ImGui::TextWrapped("%s", line.c_str());
-}
-
-void Panel::show_lights(const PanelScene& scene) {
-  const std::string title = "Lights (" + std::to_string(scene.lights.size()) + ")###lights";
-  const bool open = ImGui::CollapsingHeader(title.c_str());
-  remember_widget("lights");
-  if (!open) return;
-  if (!ImGui::BeginTable("lights", 4, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) return;
-  ImGui::TableSetupColumn("light");
-  ImGui::TableSetupColumn("solo");
-  ImGui::TableSetupColumn("mute");
-  ImGui::TableSetupColumn("intensity", ImGuiTableColumnFlags_WidthStretch);
-  ImGui::TableHeadersRow();
-  ImGuiListClipper clipper;
-  clipper.Begin(static_cast<int>(scene.lights.size()));
-  while (clipper.Step())
-    for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
-      ImGui::PushID(i);
-      show_light(scene, static_cast<std::size_t>(i));
-      ImGui::PopID();
-    }
-  ImGui::EndTable();
-}
-
-void Panel::show_light(const PanelScene& scene, std::size_t index) {
-  const PanelLight& light = scene.lights[index];
-  ImGui::TableNextColumn();
-  ImGui::AlignTextToFramePadding();
-  show_line(light.name.empty() ? "(no name)" : light.name);
-  ImGui::SameLine();
-  ImGui::TextDisabled("%s", light.kind.c_str());
-  ImGui::TableNextColumn();
-  bool solo = light.solo;
-  if (ImGui::Checkbox("##solo", &solo)) scene.solo(index, solo);
-  remember_widget(light.name + " solo");
-  ImGui::TableNextColumn();
-  bool muted = light.muted;
-  if (ImGui::Checkbox("##mute", &muted)) scene.mute(index, muted);
-  remember_widget(light.name + " mute");
-  ImGui::TableNextColumn();
-  ImGui::SetNextItemWidth(-1.0f);
-  float intensity = light.intensity;
-  const std::string format = "%.4g " + light.unit;
-  if (ImGui::SliderFloat("##intensity", &intensity, 0.0f, 100000.0f, format.c_str(), ImGuiSliderFlags_Logarithmic))
-    scene.set_intensity(index, intensity);
-  remember_widget(light.name + " intensity");
+  const PickedLines lines = sorted_pick_lines(scene.picked);
+  for (const std::string& line : lines.shares) ImGui::TextWrapped("%s", line.c_str());
+  for (const std::string& line : lines.surface) ImGui::TextWrapped("%s", line.c_str());
+  if (lines.lists.empty()) return;
+  const bool unfolded = ImGui::TreeNode("lists and slots");
+  remember_widget("pixel lists");
+  if (!unfolded) return;
+  for (const std::string& line : lines.lists) ImGui::TextWrapped("%s", line.c_str());
+  ImGui::TreePop();
 }
 
 }  // namespace gloam

@@ -7,8 +7,14 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/math/types.h"
 
 namespace gloam {
+
+inline constexpr std::size_t kNoLight = ~std::size_t{0};
 
 /// A light in the panel.
 struct PanelLight {
@@ -16,9 +22,29 @@ struct PanelLight {
   std::string kind;  ///< "spot"
   std::string unit;  ///< of the intensity
   float intensity = 0.0f;
+  vec3 color = vec3(1.0f);  ///< linear RGB
+  float range_m = 0.0f;     ///< 0: as far as it can be seen
+  float width_m = 0.0f;     ///< 0: hard shadows
+  bool shadows = true;
+  bool has_cookie = false;
+  bool cookie = true;
   bool muted = false;
   bool solo = false;
+  double share = -1.0;  ///< of the picture's light, 0…1; below 0: not measured
 };
+
+/// The lights whose name or kind contains the text, in letters of any case: in the order given, or the largest share
+/// first. Indices into `lights`.
+[[nodiscard]] std::vector<std::size_t> shown_lights(std::span<const PanelLight> lights, std::string_view search,
+                                                    bool by_share);
+
+/// Lines about a picked pixel in the order in which the panel shows them; a single line is a fault and is shown as it is.
+struct PickedLines {
+  std::vector<std::string> shares;   ///< what each light adds
+  std::vector<std::string> surface;
+  std::vector<std::string> lists;    ///< tiles, lists and slots: folded away
+};
+[[nodiscard]] PickedLines sorted_pick_lines(std::span<const std::string> lines);
 
 /// Facts about the scene that the panel shows, and functions that carry out the user's changes. All functions are set.
 struct PanelScene {
@@ -43,15 +69,17 @@ struct PanelScene {
   std::function<void(float focus_m, float f_number)> set_lens;
 
   std::span<const PanelLight> lights;
-  std::function<void(std::size_t light, float intensity)> set_intensity;
-  std::function<void(std::size_t light, bool muted)> mute;
-  std::function<void(std::size_t light, bool solo)> solo;
+  std::function<void(std::size_t light, const PanelLight& values)> set_light;  ///< name, kind and share do not count
+  std::function<void(std::size_t light)> locate;                              ///< flies the camera to it
+  std::function<void(std::size_t light)> select;  ///< the light whose marks are in the picture; kNoLight: none
+  std::function<void()> measure_shares;
+  std::function<void()> save_lights;  ///< writes the changes to a file for --lights
 
   std::span<const std::string> picked;  ///< lines about the pixel that was clicked last
 
   std::function<void()> save_config;   ///< writes the knobs to a file for --config
   std::function<void()> copy_command;  ///< puts the command line of this picture on the clipboard
-  std::string said;                    ///< result of the last of the two; empty: none
+  std::string said;                    ///< result of the last of these and of save_lights; empty: none
 };
 
 }  // namespace gloam

@@ -14,6 +14,7 @@
 #include "sandbox/output/file_io.h"
 #include "sandbox/scenes/builtin.h"
 #include "sandbox/session/loading/default_light.h"
+#include "sandbox/session/loading/light_patch.h"
 #include "sandbox/session/program_knobs.h"
 
 namespace gloam {
@@ -61,7 +62,7 @@ std::string scene_stem(const std::string& scene) {
 }
 
 SceneRequest scene_request(const Options& options, const KnobRegistry& knobs) {
-  return {.scene = options.scene, .animation = options.animation, .default_light = knobs.value(kDefaultLight)};
+  return {.scene = options.scene, .animation = options.animation, .default_light = knobs.value(kDefaultLight), .lights = options.lights};
 }
 
 void prepare_world(World& world, const ModuleList& modules) {
@@ -87,6 +88,13 @@ Result<SceneInfo> load_scene(const SceneRequest& request, const ModuleList& modu
   }
   GLOAM_TRY(check_animation(world, request.animation));
   if (request.default_light && add_default_light(world, info)) log.warning(kDefaultLightSentence);
+  if (!request.lights.empty()) {
+    const auto text = read_text_file(request.lights, ErrorKind::usage);
+    if (!text) return text.error();
+    const auto patch = parse_light_patch(*text, request.lights);
+    if (!patch) return patch.error();
+    GLOAM_TRY(apply_light_patch(world, *patch));
+  }
   return info;
 }
 

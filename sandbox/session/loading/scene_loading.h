@@ -22,6 +22,7 @@ struct SceneRequest {
   std::string scene;          ///< path or "builtin:NAME"
   std::string animation;      ///< clip to play where several move the same target; empty: the first
   bool default_light = true;  ///< add_default_light(), with a warning
+  std::string lights = {};    ///< file of changes to lights (LightPatch); empty: none
 };
 
 /// The request of a command line with these knobs (add_program_knobs()).

@@ -233,14 +233,20 @@ TEST_F(PanelTest, lights_and_scene_pass_on_what_the_user_changes) {
                       .pause = [&](bool paused) { done = paused ? "paused" : "running"; },
                       .set_exposure = [&](bool automatic, float) { done = automatic ? "automatic" : "by hand"; },
                       .lights = lights,
-                      .set_intensity = [&](std::size_t, float) { done = "intensity"; },
-                      .mute = [&](std::size_t light, bool) { done = "mute " + std::to_string(light); },
-                      .solo = [&](std::size_t light, bool) { done = "solo " + std::to_string(light); },
+                      .set_light =
+                          [&](std::size_t light, const PanelLight& values) {
+                            done = values.muted ? "mute " : values.solo ? "solo " : values.shadows ? "" : "shadows ";
+                            done = values.intensity == 5.0f ? done + std::to_string(light) : "intensity";
+                          },
+                      .locate = [&](std::size_t light) { done = "locate " + std::to_string(light); },
+                      .select = [&](std::size_t light) { done = "select " + std::to_string(light); },
+                      .measure_shares = [&] { done = "shares"; },
+                      .save_lights = [&] { done = "saved lights"; },
                       .picked = picked,
                       .save_config = [&] { done = "saved"; },
                       .copy_command = [&] { done = "copied"; }};
   scene_ = &scene;
-  const auto expect = [&](const char* widget, const char* what, double share = 0.5) {
+  const auto expect = [&](const char* widget, const std::string& what, double share = 0.5) {
     done.clear();
     click(widget, share);
     EXPECT_EQ(done, what) << widget;
@@ -255,6 +261,35 @@ TEST_F(PanelTest, lights_and_scene_pass_on_what_the_user_changes) {
   expect("lamp mute", "mute 0");
   expect("lamp solo", "solo 0");
   expect("lamp intensity", "intensity", 0.8);
+  expect("lights by share", "shares", 0.05);
+  expect("save lights", "saved lights");
+  expect("lamp", "select 0");
+  expect("light locate", "locate 0");
+  expect("light shadows", "shadows 0", 0.1);
+  expect("lamp", "select " + std::to_string(kNoLight));
+  EXPECT_EQ(find("light locate"), nullptr) << "details of the selected light";
+}
+
+TEST(PickedLines, put_the_light_first_and_fold_lists) {
+  const std::vector<std::string> lines = {"pixel 1,2 of tile 0,0", "view depth 5 m", "illuminance before shadows 11 lx: lamp",
+                                          "slot 3123", "final list: 3 lights"};
+  const PickedLines sorted = sorted_pick_lines(lines);
+  EXPECT_EQ(sorted.shares, (std::vector<std::string>{lines[2]}));
+  EXPECT_EQ(sorted.surface, (std::vector<std::string>{lines[0], lines[1]}));
+  EXPECT_EQ(sorted.lists, (std::vector<std::string>{lines[3], lines[4]}));
+  const std::vector<std::string> fault = {"no frame was drawn"};
+  EXPECT_EQ(sorted_pick_lines(fault).surface, fault);
+}
+
+TEST(ShownLights, are_found_by_name_and_kind_and_sorted_by_share) {
+  const std::vector<PanelLight> lights = {{.name = "Lamp", .kind = "spot", .share = 0.2},
+                                          {.name = "moon", .kind = "directional", .share = 0.5},
+                                          {.name = "lantern", .kind = "point", .share = 0.3}};
+  EXPECT_EQ(shown_lights(lights, "", false), (std::vector<std::size_t>{0, 1, 2}));
+  EXPECT_EQ(shown_lights(lights, "LA", false), (std::vector<std::size_t>{0, 2}));
+  EXPECT_EQ(shown_lights(lights, "direct", false), (std::vector<std::size_t>{1}));
+  EXPECT_EQ(shown_lights(lights, "", true), (std::vector<std::size_t>{1, 2, 0}));
+  EXPECT_TRUE(shown_lights(lights, "sun", true).empty());
 }
 
 TEST_F(PanelTest, budgets_pass_on_what_the_user_changes) {

@@ -9,10 +9,10 @@ namespace {
 
 using Next = Refinement::Next;
 
-constexpr double kFrameS = 0.1;
+constexpr double kTurnS = 0.1;
 
 Next step(Refinement& refinement, double moment, bool active = false) {
-  const Next next = refinement.next({.numbers = {moment}, .visualizer = "none"}, kFrameS, active);
+  const Next next = refinement.next({.numbers = {moment}, .visualizer = "none"}, kTurnS, active);
   if (next == Next::full) refinement.shown_full();
   return next;
 }
@@ -57,7 +57,7 @@ TEST(Refinement, a_moving_pointer_delays_the_first_full_picture) {
 
 TEST(Refinement, a_frame_that_was_not_shown_is_drawn_again) {
   Refinement refinement;
-  for (int i = 0; i < 10; ++i) static_cast<void>(refinement.next({.numbers = {1.0}, .visualizer = {}}, kFrameS, false));
+  for (int i = 0; i < 10; ++i) static_cast<void>(refinement.next({.numbers = {1.0}, .visualizer = {}}, kTurnS, false));
   EXPECT_FALSE(refinement.refined());
 }
 

@@ -16,6 +16,18 @@
 namespace gloam {
 namespace {
 
+void mute(LightControls& controls, std::size_t light, bool muted) {
+  LightValues values = controls.lights()[light].values;
+  values.muted = muted;
+  controls.set(light, values);
+}
+
+void solo(LightControls& controls, std::size_t light, bool alone) {
+  LightValues values = controls.lights()[light].values;
+  values.solo = alone;
+  controls.set(light, values);
+}
+
 class LightControlsTest : public ::testing::Test {
  protected:
   LightControlsTest() {
@@ -52,25 +64,27 @@ TEST_F(LightControlsTest, lists_numbers_in_names_in_their_order) {
 
 TEST_F(LightControlsTest, mute_turns_a_light_off_and_on_again) {
   LightControls controls(world_);
-  controls.mute(1, true);
+  mute(controls, 1, true);
   EXPECT_EQ(intensity("b"), 0.0f);
   EXPECT_EQ(intensity("a"), 10.0f);
-  controls.set_intensity(1, 25.0f);
+  LightValues brighter = controls.lights()[1].values;
+  brighter.intensity = 25.0f;
+  controls.set(1, brighter);
   EXPECT_EQ(intensity("b"), 0.0f) << "a muted light stays dark";
-  controls.mute(1, false);
+  mute(controls, 1, false);
   EXPECT_EQ(intensity("b"), 25.0f);
 }
 
 TEST_F(LightControlsTest, solo_leaves_only_the_solo_lights_that_are_not_muted) {
   LightControls controls(world_);
-  controls.solo(0, true);
-  controls.solo(1, true);
-  controls.mute(1, true);
+  solo(controls, 0, true);
+  solo(controls, 1, true);
+  mute(controls, 1, true);
   EXPECT_EQ(intensity("a"), 10.0f);
   EXPECT_EQ(intensity("b"), 0.0f);
   EXPECT_EQ(intensity("c"), 0.0f);
-  controls.solo(0, false);
-  controls.solo(1, false);
+  solo(controls, 0, false);
+  solo(controls, 1, false);
   EXPECT_EQ(intensity("c"), 10.0f);
 }
 
@@ -81,10 +95,10 @@ TEST_F(LightControlsTest, only_changes_are_marked) {
   const auto count = [&](std::span<const Entity>, std::span<const Light>) { ++blocks; };
   const Tick since = view.changed_since<const Light>(0, count);
   blocks = 0;
-  controls.mute(0, false);
+  mute(controls, 0, false);
   const Tick later = view.changed_since<const Light>(since, count);
   EXPECT_EQ(blocks, 0);
-  controls.mute(0, true);
+  mute(controls, 0, true);
   static_cast<void>(view.changed_since<const Light>(later, count));
   EXPECT_EQ(blocks, 1);
 }
@@ -92,7 +106,7 @@ TEST_F(LightControlsTest, only_changes_are_marked) {
 TEST_F(LightControlsTest, a_light_that_is_gone_is_left_out) {
   LightControls controls(world_);
   world_.destroy(lights_[0]);
-  controls.solo(0, true);
+  solo(controls, 0, true);
   EXPECT_EQ(intensity("b"), 0.0f);
 }
 
