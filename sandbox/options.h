@@ -62,7 +62,7 @@ struct Options {
   std::uint32_t threads = 0;  ///< 0: one per core
   std::string animation;
   std::string config;
-  std::string lights;  ///< file of changes to lights; empty: none
+  std::string lights;                        ///< file of changes to lights; empty: none
   std::string cache_dir;                     ///< empty: compiled pipelines are not kept between runs
   std::optional<double> budget_ms;           ///< play, render, bench: time of a frame
   std::vector<EffectBudget> effect_budgets;  ///< play, render, bench

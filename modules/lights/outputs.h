@@ -118,8 +118,8 @@ struct DirectionalLook {
 [[nodiscard]] double local_illuminance_at(const VisibleLights& visible, std::size_t light, const vec3& point,
                                           const vec3& normal);
 [[nodiscard]] double directional_illuminance_at(const VisibleLights& visible, std::size_t light, const vec3& normal);
-/// The same of all lights of the view's last frame, with their entities; those that shed none are left out. Empty if the
-/// view has no lights.
+/// The same of all lights of the view's last frame, with their entities; those that shed none are left out. Empty if
+/// the view has no lights.
 struct LightOnPoint {
   Entity entity = kNoEntity;
   double lux = 0.0;

@@ -142,31 +142,33 @@ PanelScene PlayPanel::scene_of(const PlayControls& controls, const ViewSettings&
   const auto* lens = std::as_const(session_.world).try_get<DepthOfField>(session_.camera);
   const auto& cameras = session_.info.cameras;
   const auto shown = view.follow_camera ? std::ranges::find(cameras, session_.camera) : cameras.end();
-  PanelScene scene = {.cameras = cameras_,
-          .camera = shown == cameras.end() ? 0 : static_cast<std::uint32_t>(shown - cameras.begin()) + 1,
-          .show_camera = controls.show_camera,
-          .warnings = warnings_,
-          .time_s = controls.time_s,
-          .paused = controls.paused,
-          .pause = controls.pause,
-          .automatic_exposure = automatic,
-          .ev100 = automatic ? metered_ev100() : environment.exposure_ev100,
-          .set_exposure = [this](bool on, float ev100) { set_exposure(on, ev100); },
-          .has_camera = session_.world.alive(session_.camera),
-          .focus_m = lens != nullptr ? lens->focus_m : 0.0f,
-          .f_number = lens != nullptr ? lens->f_number : DepthOfField{}.f_number,
-          .picked_m = picked_m_,
-          .set_lens = [this](float focus_m, float f_number) { set_lens(focus_m, f_number); },
-          .locate = [this, &controls](std::size_t light) { locate(light, controls); },
-          .save_lights = [this, name = controls.scene] { said_ = lights_.save("out/" + scene_stem(name) + ".lights.json"); },
-          .picked = picked_,
-          .save_config = [this, scene = controls.scene] { save_config(scene); },
-          .copy_command =
-              [this, &controls, &view] {
-                controls.copy(command_line(controls, view));
-                said_ = "the command line is on the clipboard";
-              },
-          .said = said_};
+  PanelScene scene = {
+      .cameras = cameras_,
+      .camera = shown == cameras.end() ? 0 : static_cast<std::uint32_t>(shown - cameras.begin()) + 1,
+      .show_camera = controls.show_camera,
+      .warnings = warnings_,
+      .time_s = controls.time_s,
+      .paused = controls.paused,
+      .pause = controls.pause,
+      .automatic_exposure = automatic,
+      .ev100 = automatic ? metered_ev100() : environment.exposure_ev100,
+      .set_exposure = [this](bool on, float ev100) { set_exposure(on, ev100); },
+      .has_camera = session_.world.alive(session_.camera),
+      .focus_m = lens != nullptr ? lens->focus_m : 0.0f,
+      .f_number = lens != nullptr ? lens->f_number : DepthOfField{}.f_number,
+      .picked_m = picked_m_,
+      .set_lens = [this](float focus_m, float f_number) { set_lens(focus_m, f_number); },
+      .locate = [this, &controls](std::size_t light) { locate(light, controls); },
+      .save_lights = [this,
+                      name = controls.scene] { said_ = lights_.save("out/" + scene_stem(name) + ".lights.json"); },
+      .picked = picked_,
+      .save_config = [this, scene = controls.scene] { save_config(scene); },
+      .copy_command =
+          [this, &controls, &view] {
+            controls.copy(command_line(controls, view));
+            said_ = "the command line is on the clipboard";
+          },
+      .said = said_};
   lights_.fill(scene, view);
   return scene;
 }
@@ -264,7 +266,8 @@ void PlayPanel::save_config(const std::string& scene) {
 bool PlayPanel::may_leave(const std::string& scene) {
   if (!(unsaved_ || lights_.unsaved()) || asked_to_leave_) return true;
   asked_to_leave_ = true;
-  tell("Changes are not saved. Escape again leaves and writes them to out/" + scene_stem(scene) + ".unsaved.*.json", true);
+  tell("Changes are not saved. Escape again leaves and writes them to out/" + scene_stem(scene) + ".unsaved.*.json",
+       true);
   return false;
 }
 

@@ -53,7 +53,8 @@ class ViewFlight {
   /// Moves the view. The first movement starts at the current pose of the world's camera.
   void advance(const World& world, const FlyInput& input, double dt_s, ViewSettings& settings);
 
-  /// Flies within kJourneyS, from the view's pose, to `eye`, from which it looks at `target`. Input of the user ends it.
+  /// Flies within kJourneyS, from the view's pose, to `eye`, from which it looks at `target`. Input of the user ends
+  /// it.
   void fly_to(const World& world, const dvec3& eye, const dvec3& target, ViewSettings& settings);
 
  private:

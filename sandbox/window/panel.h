@@ -50,11 +50,10 @@ struct PanelContent {
 struct PanelWidget {
   /// "knobs MODULE", KNOB, "KNOB reset", "KNOB CHOICE", "search", "view", "view VISUALIZER", "view argument", "scale",
   /// "scale auto", "scale NN %", "camera", "camera NAME", "warning", "pause", "exposure auto", "exposure", "lens",
-  /// "lens here", "lens focus", "lens f-number", "pixel", "pixel lists", "lights", "lights by share", "lights search", "save lights",
-  /// LIGHT, "LIGHT color", "LIGHT mute", "LIGHT solo", "LIGHT intensity", "light locate", "light shadows", "light
-  /// cookie", "light range", "light width",
-  /// "keep A", "show A", "keep B", "show B", "save config", "copy command", "budget section", "budget", "budget
-  /// EFFECT", "lock KNOB", "wipe" or "wipe line"
+  /// "lens here", "lens focus", "lens f-number", "pixel", "pixel lists", "lights", "lights by share", "lights search",
+  /// "save lights", LIGHT, "LIGHT color", "LIGHT mute", "LIGHT solo", "LIGHT intensity", "light locate", "light
+  /// shadows", "light cookie", "light range", "light width", "keep A", "show A", "keep B", "show B", "save config",
+  /// "copy command", "budget section", "budget", "budget EFFECT", "lock KNOB", "wipe" or "wipe line"
   std::string name;
   float left = 0.0f;
   float top = 0.0f;

@@ -12,8 +12,8 @@
 namespace gloam {
 namespace {
 
-constexpr ImGuiColorEditFlags kSwatch = ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_NoLabel |
-                                        ImGuiColorEditFlags_HDR | ImGuiColorEditFlags_Float;
+constexpr ImGuiColorEditFlags kSwatch =
+    ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_NoLabel | ImGuiColorEditFlags_HDR | ImGuiColorEditFlags_Float;
 
 bool contains(std::string_view text, std::string_view search) {
   const auto same = [](char a, char b) {
@@ -56,8 +56,7 @@ void Panel::show_light_table(const PanelScene& scene) {
   const std::vector<std::size_t> shown = shown_lights(scene.lights, light_search_, lights_by_share_);
   const float line = ImGui::GetFrameHeightWithSpacing();
   const float height = line * std::min(static_cast<float>(shown.size()) + 1.2f, kMostLines);
-  constexpr ImGuiTableFlags kFlags =
-      ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_ScrollY;
+  constexpr ImGuiTableFlags kFlags = ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_ScrollY;
   if (!ImGui::BeginTable("lights", 5, kFlags, ImVec2(0.0f, height))) return;
   ImGui::TableSetupScrollFreeze(0, 1);
   ImGui::TableSetupColumn("light");

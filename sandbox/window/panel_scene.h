@@ -38,11 +38,12 @@ struct PanelLight {
 [[nodiscard]] std::vector<std::size_t> shown_lights(std::span<const PanelLight> lights, std::string_view search,
                                                     bool by_share);
 
-/// Lines about a picked pixel in the order in which the panel shows them; a single line is a fault and is shown as it is.
+/// Lines about a picked pixel in the order in which the panel shows them; a single line is a fault and is shown as it
+/// is.
 struct PickedLines {
-  std::vector<std::string> shares;   ///< what each light adds
+  std::vector<std::string> shares;  ///< what each light adds
   std::vector<std::string> surface;
-  std::vector<std::string> lists;    ///< tiles, lists and slots: folded away
+  std::vector<std::string> lists;  ///< tiles, lists and slots: folded away
 };
 [[nodiscard]] PickedLines sorted_pick_lines(std::span<const std::string> lines);
 
@@ -70,7 +71,7 @@ struct PanelScene {
 
   std::span<const PanelLight> lights;
   std::function<void(std::size_t light, const PanelLight& values)> set_light;  ///< name, kind and share do not count
-  std::function<void(std::size_t light)> locate;                              ///< flies the camera to it
+  std::function<void(std::size_t light)> locate;                               ///< flies the camera to it
   std::function<void(std::size_t light)> select;  ///< the light whose marks are in the picture; kNoLight: none
   std::function<void()> measure_shares;
   std::function<void()> save_lights;  ///< writes the changes to a file for --lights

@@ -54,7 +54,8 @@ class LightControls {
   /// The world position of a light and the direction in which it shines, of its last pose.
   [[nodiscard]] dvec3 position(std::size_t light) const;
   [[nodiscard]] dvec3 direction(std::size_t light) const;
-  /// Moves a light to a world position, or turns it to shine in a world direction (not 0). Nothing if it is not movable.
+  /// Moves a light to a world position, or turns it to shine in a world direction (not 0). Nothing if it is not
+  /// movable.
   void move(std::size_t light, const dvec3& position);
   void aim(std::size_t light, const dvec3& direction);
 

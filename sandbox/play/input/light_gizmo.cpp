@@ -87,7 +87,8 @@ bool LightGizmo::steer(LightControls& lights, std::size_t light, const ViewSetti
     start_ = origin_of(lights, light, view);
     length_ = axis_length(start_, view);
     if (part_ >= 0 && part_ < 3)
-      grabbed_ = nearest_on_axis(sight_line(view, pointer), start_, kAxes[static_cast<std::size_t>(part_)]).value_or(0.0);
+      grabbed_ =
+          nearest_on_axis(sight_line(view, pointer), start_, kAxes[static_cast<std::size_t>(part_)]).value_or(0.0);
     return part_ != kNothing;
   }
   if (part_ == kNothing) return false;

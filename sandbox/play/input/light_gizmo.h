@@ -32,7 +32,7 @@ class LightGizmo {
                             const glm::dvec2& pointer) const;
   void drag(LightControls& lights, std::size_t light, const ViewSettings& view, const glm::dvec2& pointer);
 
-  int part_ = kNothing;       ///< that is being dragged
+  int part_ = kNothing;  ///< that is being dragged
   bool was_down_ = false;
   dvec3 start_ = dvec3(0.0);  ///< of the light, when the drag began
   double grabbed_ = 0.0;      ///< along the axis, from start_

@@ -21,9 +21,23 @@ constexpr const char* kLens = "lens";
 using Numbers = std::vector<double>;
 
 Numbers numbers_of(const LightValues& v) {
-  return {v.intensity,     v.color.r,       v.color.g,       v.color.b,    v.range_m,    v.width_m,
-          v.shadows ? 1.0 : 0.0, v.cookie ? 1.0 : 0.0, v.muted ? 1.0 : 0.0, v.solo ? 1.0 : 0.0,
-          v.translation.x, v.translation.y, v.translation.z, v.rotation.w, v.rotation.x, v.rotation.y, v.rotation.z};
+  return {v.intensity,
+          v.color.r,
+          v.color.g,
+          v.color.b,
+          v.range_m,
+          v.width_m,
+          v.shadows ? 1.0 : 0.0,
+          v.cookie ? 1.0 : 0.0,
+          v.muted ? 1.0 : 0.0,
+          v.solo ? 1.0 : 0.0,
+          v.translation.x,
+          v.translation.y,
+          v.translation.z,
+          v.rotation.w,
+          v.rotation.x,
+          v.rotation.y,
+          v.rotation.z};
 }
 
 LightValues light_of(const Numbers& n) {
@@ -58,7 +72,8 @@ Settings panel_settings(const Session& session, const LightControls& lights) {
 void set_panel_settings(Session& session, LightControls& lights, const Settings& settings) {
   for (const auto& [name, value] : settings) {
     if (name.starts_with(kKnob)) {
-      const Status set = session.renderer->knobs().set(name.substr(std::string(kKnob).size()), std::get<std::string>(value));
+      const Status set =
+          session.renderer->knobs().set(name.substr(std::string(kKnob).size()), std::get<std::string>(value));
       GLOAM_ASSERT(set.ok(), "a knob takes a value that it had");
       continue;
     }

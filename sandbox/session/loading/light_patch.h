@@ -21,15 +21,16 @@ struct LightChange {
   std::optional<float> width_m;    ///< ≥ 0, as Light::width_m
   std::optional<bool> on;          ///< false: the intensity becomes 0
   std::optional<bool> shadows;
-  std::optional<bool> cookie;         ///< only false changes something
-  std::optional<dvec3> translation;   ///< of the node, as in glTF
-  std::optional<dquat> rotation;      ///< of the node, as in glTF; the light shines along its −Z
+  std::optional<bool> cookie;        ///< only false changes something
+  std::optional<dvec3> translation;  ///< of the node, as in glTF
+  std::optional<dquat> rotation;     ///< of the node, as in glTF; the light shines along its −Z
   bool operator==(const LightChange&) const = default;
 };
 
 /// The changes of a file for --lights, by the name of the light's node:
-/// {"version": 1, "lights": {"lamp": {"intensity": 40, "color": [1, 0.9, 0.7], "range_m": 8, "width_m": 0.1, "on": true,
-/// "shadows": true, "cookie": true, "translation": [0, 2, 0], "rotation": [0, 0, 0, 1]}}}. All members are optional.
+/// {"version": 1, "lights": {"lamp": {"intensity": 40, "color": [1, 0.9, 0.7], "range_m": 8, "width_m": 0.1, "on":
+/// true, "shadows": true, "cookie": true, "translation": [0, 2, 0], "rotation": [0, 0, 0, 1]}}}. All members are
+/// optional.
 struct LightPatch {
   std::map<std::string, LightChange, std::less<>> lights;
   bool operator==(const LightPatch&) const = default;

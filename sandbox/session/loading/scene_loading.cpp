@@ -62,7 +62,10 @@ std::string scene_stem(const std::string& scene) {
 }
 
 SceneRequest scene_request(const Options& options, const KnobRegistry& knobs) {
-  return {.scene = options.scene, .animation = options.animation, .default_light = knobs.value(kDefaultLight), .lights = options.lights};
+  return {.scene = options.scene,
+          .animation = options.animation,
+          .default_light = knobs.value(kDefaultLight),
+          .lights = options.lights};
 }
 
 void prepare_world(World& world, const ModuleList& modules) {

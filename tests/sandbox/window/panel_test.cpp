@@ -271,8 +271,9 @@ TEST_F(PanelTest, lights_and_scene_pass_on_what_the_user_changes) {
 }
 
 TEST(PickedLines, put_the_light_first_and_fold_lists) {
-  const std::vector<std::string> lines = {"pixel 1,2 of tile 0,0", "view depth 5 m", "illuminance before shadows 11 lx: lamp",
-                                          "slot 3123", "final list: 3 lights"};
+  const std::vector<std::string> lines = {"pixel 1,2 of tile 0,0", "view depth 5 m",
+                                          "illuminance before shadows 11 lx: lamp", "slot 3123",
+                                          "final list: 3 lights"};
   const PickedLines sorted = sorted_pick_lines(lines);
   EXPECT_EQ(sorted.shares, (std::vector<std::string>{lines[2]}));
   EXPECT_EQ(sorted.surface, (std::vector<std::string>{lines[0], lines[1]}));

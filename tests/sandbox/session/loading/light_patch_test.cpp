@@ -90,7 +90,8 @@ TEST_F(LightPatchTest, faults_are_usage_errors_that_name_the_place) {
            {R"({"version": 1, "lights": {"lamp": {"color": [1, 2]}}})", "'color' does not have 3 numbers from 0 on"},
            {R"({"version": 1, "lights": {"lamp": {"color": [1, 2, "3"]}}})", "'color' does not have 3 numbers"},
            {R"({"version": 1, "lights": {"lamp": {"shadows": 1}}})", "'shadows' is not true or false"},
-           {R"({"version": 1, "lights": {"lamp": {"rotation": [0, 0, 0, 0]}}})", "'rotation' is not a unit quaternion"}}) {
+           {R"({"version": 1, "lights": {"lamp": {"rotation": [0, 0, 0, 0]}}})",
+            "'rotation' is not a unit quaternion"}}) {
     const auto patch = parse_light_patch(text, "file.json");
     ASSERT_FALSE(patch.ok()) << text;
     EXPECT_EQ(patch.error().kind, ErrorKind::usage);
