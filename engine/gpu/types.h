@@ -217,7 +217,14 @@ struct ComputePipelineDesc {
 };
 
 enum class CullMode : std::uint8_t { none, front, back };
-enum class BlendMode : std::uint8_t { opaque, alpha, premultiplied, additive };
+enum class BlendMode : std::uint8_t {
+  opaque,
+  alpha,
+  premultiplied,
+  additive,
+  /// As premultiplied, but the target's alpha is multiplied by 1 - alpha: it is the share that shows through all draws.
+  premultiplied_over,
+};
 
 struct VertexAttribute {
   std::uint32_t location = 0;

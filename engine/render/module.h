@@ -173,6 +173,11 @@ class Module {
   /// Whether the module's passes read GeometryOutputs::motion. Called like needs_casters; views that do not demand the
   /// module get no motion for it.
   [[nodiscard]] virtual bool needs_motion(const World&, const KnobRegistry&) const { return false; }
+  /// Whether the module accumulates pictures over frames, and so wants each frame to show other points of the pixels
+  /// (RenderView::jitter). Called like needs_casters. Jittered are views that draw a picture of their own geometry:
+  /// no captures, references, visualizers, points of a lens or geometry of the host. Companions have the jitter of
+  /// their view.
+  [[nodiscard]] virtual bool wants_jitter(const World&, const KnobRegistry&) const { return false; }
   /// Whether the module's passes read GeometryOutputs::smooth_surfaces. Called like needs_motion.
   [[nodiscard]] virtual bool needs_smooth_surfaces(const World&, const KnobRegistry&) const { return false; }
   /// Whether a frame without the module makes no sense. Then frames wait for its pipelines even with

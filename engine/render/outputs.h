@@ -42,7 +42,9 @@ struct GeometryOutputs {
 /// Linear light of the view, cd/m² before exposure · RenderView::light_scale, rgba16f. The renderer creates the image
 /// and shading fills it. Later passes write it in place, or read it and write their result to another image of the same
 /// size and format, for example a transient one (create_view_image). Either way, the pass puts the written version into
-/// `color`. An image that is owned outside the graph must have been created as sampled.
+/// `color`. Shading writes 1 to alpha. In jittered views (RenderView::jittered) passes multiply alpha by 1 - opacity if
+/// they draw light whose motion is not in GeometryOutputs::motion (BlendMode::premultiplied_over). Passes that replace
+/// light keep its alpha. An image that is owned outside the graph must have been created as sampled.
 struct LitOutput {
   ImageRef color;
 };

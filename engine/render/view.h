@@ -101,7 +101,7 @@ class CompanionViews {
   std::vector<ViewSettings> all_;
 };
 
-/// Pose and lens of a view in one frame, without jitter.
+/// Pose and lens of a view in one frame.
 struct ViewCamera {
   dvec3 position = dvec3(0.0);          ///< world
   mat4 view_from_relative = mat4(1.0);  ///< rotation only
@@ -132,8 +132,14 @@ struct RenderView : ViewProjection {
   /// A time budget chooses the view's knobs: modules spread work that a change of knobs makes over several frames, so
   /// that no frame is much longer than the others (Module::spreads_work).
   bool paced = false;
-  /// The view's camera in the world's previous drawn frame. If there is none (has_previous), the current camera. There
-  /// is none after a camera cut, and if the world's previous frame did not draw the view.
+  /// The projection is moved by a part of a pixel, by another one in each frame, because some module accumulates the
+  /// view's pictures (Module::wants_jitter). The first frame after a camera cut is not moved.
+  bool jittered = false;
+  /// The point of the picture that the centre of each pixel shows, from that centre; pixels, to the right and down.
+  vec2 jitter = vec2(0.0f);
+  /// The view's camera in the world's previous drawn frame, with the jitter of this frame, so that motion is without
+  /// jitter. If there is none (has_previous), the current camera. There is none after a camera cut, and if the world's
+  /// previous frame did not draw the view.
   ViewCamera previous;
   bool has_previous = false;
 

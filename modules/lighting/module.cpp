@@ -55,6 +55,13 @@ class LightingModule final : public Module {
   [[nodiscard]] bool shows_surfaces(const World&, const RenderView&) const override { return false; }
   [[nodiscard]] Demand demand(const World&, const RenderView*) const override { return {true, "every picture is lit"}; }
 
+  [[nodiscard]] bool needs_motion(const World&, const KnobRegistry& knobs) const override {
+    return knobs.value(kAntialiasing) == Antialiasing::taa;
+  }
+  [[nodiscard]] bool wants_jitter(const World&, const KnobRegistry& knobs) const override {
+    return knobs.value(kAntialiasing) == Antialiasing::taa;
+  }
+
   [[nodiscard]] bool essential() const override { return true; }
 
   /// While these are made, frames keep the last knobs, so that changing a knob of shadows never shows a frame without

@@ -21,20 +21,24 @@
 
 namespace gloam {
 
-enum class Antialiasing : std::uint8_t { off, smaa };
+enum class Antialiasing : std::uint8_t { off, smaa, taa };
 [[nodiscard]] constexpr std::string_view name_of(Antialiasing antialiasing) {
   switch (antialiasing) {
     case Antialiasing::off:
       return "off";
     case Antialiasing::smaa:
       return "smaa";
+    case Antialiasing::taa:
+      return "taa";
   }
   return {};
 }
 
 inline constexpr EnumKnob<Antialiasing> kAntialiasing{
     .name = "lighting.antialiasing",
-    .meaning = "smoothing of slanted edges in the picture; play and render set smaa",
+    .meaning =
+        "smoothing of slanted edges in the picture (smaa), or the mean over frames (taa); play and render set "
+        "smaa",
     .is_look = true};
 
 /// Another module adds the specular reflection of the surroundings (sky and ground) to opaque surfaces itself. It puts

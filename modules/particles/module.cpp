@@ -70,7 +70,7 @@ class ParticlesModule final : public Module {
   }
   [[nodiscard]] std::vector<VisualizerInfo> visualizers() const override { return particle_visualizers(); }
   void pipelines(const KnobRegistry& knobs, const gpu::DeviceInfo& device, PipelineList& list) const override {
-    list_particle_pipelines(particle_lighting(knobs), last_version_, device.threads_in_turn, list);
+    list_particle_pipelines(particle_lighting(knobs), last_version_, last_jittered_, device.threads_in_turn, list);
   }
   void add_passes(FrameBuilder& frame, PassPhase phase) override {
     if (phase == PassPhase::translucent) add_particle_passes(frame);
@@ -78,6 +78,7 @@ class ParticlesModule final : public Module {
     if (phase == PassPhase::visualize) add_overdraw_passes(frame, particles);
     if (phase != PassPhase::translucent || particles == nullptr || !frame.status().ok()) return;
     last_version_ = particle_light_version(frame, particles->inputs.atlas);
+    last_jittered_ = frame.view().jittered;
     frame.keep_result("particles", kDrawsResult, particles->sorted.draws, particles->inputs.lighting);
   }
   void result_counters(std::string_view name, const FrameResult& result, CounterSink& sink) const override {
@@ -112,6 +113,7 @@ class ParticlesModule final : public Module {
 
  private:
   ParticleLightVersion last_version_;
+  bool last_jittered_ = false;
 };
 
 }  // namespace

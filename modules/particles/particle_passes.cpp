@@ -127,8 +127,8 @@ void add_particle_passes(FrameBuilder& frame) {
   add_sprite_pass(frame, frame.put(ParticlesFrame{inputs, simulated, sorted, light}));
 }
 
-void list_particle_pipelines(ParticleLighting lighting, const ParticleLightVersion& version, bool threads_in_turn,
-                             PipelineList& list) {
+void list_particle_pipelines(ParticleLighting lighting, const ParticleLightVersion& version, bool jittered,
+                             bool threads_in_turn, PipelineList& list) {
   const auto add = [&](const ComputeProgram& program) { list.push_back(pipeline_desc(program, "particles")); };
   for (const bool one_emitter : {true, false})
     for (const bool paths : {true, false}) add(particle_simulation_program(one_emitter, paths));
@@ -137,8 +137,8 @@ void list_particle_pipelines(ParticleLighting lighting, const ParticleLightVersi
   if (points > 0) add(particle_light_program(version, points));
   const gpu::Format formats[] = {gpu::Format::rgba16_float};
   const bool per_pixel = lighting == ParticleLighting::pixel;
-  list.push_back(pipeline_desc(sprite_program(points, false, per_pixel ? &version : nullptr), "particles", formats,
-                               kGeometryDepthFormat));
+  list.push_back(pipeline_desc(sprite_program(points, false, jittered, per_pixel ? &version : nullptr), "particles",
+                               formats, kGeometryDepthFormat));
 }
 
 }  // namespace gloam

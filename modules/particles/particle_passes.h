@@ -13,8 +13,8 @@ namespace gloam {
 /// ParticlesFrame on the board. No passes if there are no such emitters.
 void add_particle_passes(FrameBuilder& frame);
 
-/// Pipelines of all passes of a view without a clip plane. version: of the last frame, or a default one.
-void list_particle_pipelines(ParticleLighting lighting, const ParticleLightVersion& version, bool threads_in_turn,
-                             PipelineList& list);
+/// Pipelines of all passes of a view without a clip plane. version, jittered: of the last frame, or default ones.
+void list_particle_pipelines(ParticleLighting lighting, const ParticleLightVersion& version, bool jittered,
+                             bool threads_in_turn, PipelineList& list);
 
 }  // namespace gloam

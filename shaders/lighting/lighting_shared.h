@@ -68,6 +68,12 @@ struct AntialiasingConstants {
   uint encode_srgb;  // 1: the target's format does not encode sRGB, so the shader does
 };
 
+/// Constants for accumulating a picture over frames.
+struct TemporalConstants {
+  uvec2 size;  // pixels of the picture
+  uint known;  // 0: there is no previous frame
+};
+
 GLOAM_SHARED_END
 
 #endif

@@ -166,7 +166,7 @@ VkPipelineColorBlendAttachmentState to_vulkan(BlendMode mode, Format format) {
   state.alphaBlendOp = VK_BLEND_OP_ADD;
   state.srcColorBlendFactor = mode == BlendMode::alpha ? VK_BLEND_FACTOR_SRC_ALPHA : VK_BLEND_FACTOR_ONE;
   state.dstColorBlendFactor = additive ? VK_BLEND_FACTOR_ONE : VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
-  state.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
+  state.srcAlphaBlendFactor = mode == BlendMode::premultiplied_over ? VK_BLEND_FACTOR_ZERO : VK_BLEND_FACTOR_ONE;
   state.dstAlphaBlendFactor = state.dstColorBlendFactor;
   return state;
 }

@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cstdint>
 #include <string>
 
+#include "engine/render/camera/jitter.h"
 #include "engine/render/camera/light_scale.h"
 #include "engine/render/frame/attempt.h"
 #include "engine/render/frame/stages.h"
@@ -28,6 +31,27 @@ float light_scale_of(const Frame& frame, const FrameView& own, const ViewStore& 
       views.find(own.main.value_or(own.request.settings.id));  // companions have that of their view
   const bool has_last = !captures && last != nullptr && last->drawn;
   return light_scale(scene_brightness(frame.world), has_last ? last->light_scale : 1.0f);
+}
+
+/// Whether the view is jittered (RenderView::jitter) if a module wants that.
+bool may_jitter(const ViewRequest& request) {
+  const ViewSettings& settings = request.settings;
+  return settings.purpose == ViewPurpose::main && settings.visualizer == "none" && !settings.lens &&
+         !request.target.light && !request.geometry;
+}
+
+/// Sets the camera of the view's previous frame, and its jitter. Views that are no companions come first.
+void set_motion(Frame& frame, FrameView& own, RendererParts& parts) {
+  RenderView& view = *own.view;
+  parts.resources.motion.begin_view(view);
+  if (own.main) {
+    const auto main = std::ranges::find_if(
+        frame.views, [&](const FrameView& other) { return other.request.settings.id == *own.main; });
+    if (main->view->jittered) apply_jitter(view, main->view->jitter);
+  } else if (may_jitter(own.request) &&
+             parts.modules.any_needs(&Module::wants_jitter, frame.world, frame.knobs_of(own))) {
+    apply_jitter(view, jitter_point(view.frame - view.cut_frame));
+  }
 }
 
 }  // namespace
@@ -57,7 +81,12 @@ Status prepare_views(Frame& frame, RendererParts& parts) {
     own.view->has_companions = own.has_companions;
     own.view->paced = !parts.budgets.empty();
     own.view->light_scale = light_scale_of(frame, own, parts.views);
-    parts.resources.motion.begin_view(*own.view);
+  }
+  for (const bool companions : {false, true})
+    for (FrameView& own : frame.views)
+      if (own.main.has_value() == companions) set_motion(frame, own, parts);
+  for (const FrameView& own : frame.views) {
+    const ViewSettings& settings = own.request.settings;
     frame.world.set_view_resource(settings.id, *own.view);
     for (const Module* module : parts.modules.demanded())
       module->prepare_view(frame.world, settings.id, frame.knobs_of(own));

@@ -3,6 +3,7 @@
 #include "engine/render/declare/compute_pass.h"
 #include "engine/render/declare/draw_pass.h"
 #include "modules/lighting/antialiasing/smooth_edges_passes.h"
+#include "modules/lighting/antialiasing/temporal_passes.h"
 #include "modules/lighting/display/metering.h"
 #include "modules/lighting/knobs.h"
 #include "modules/lighting/lighting_passes.h"
@@ -60,8 +61,8 @@ void add_tone_map_passes(FrameBuilder& frame) {
   constants.metered = exposure.metered ? 1 : 0;
 
   const ImageRef table = add_tone_table_pass(frame);
-  const bool smooth = antialiases(frame), dither = frame.knobs().value(kDither);
-  const std::uint32_t output = smooth ? 2u : (dither ? 1u : 0u);  // kOutput of tone_map.frag
+  const bool smooth = antialiases(frame), temporal = accumulates(frame), dither = frame.knobs().value(kDither);
+  const std::uint32_t output = temporal ? 3u : (smooth ? 2u : (dither ? 1u : 0u));  // kOutput of tone_map.frag
   ImageRef shown = smooth ? create_view_image(frame, "shown", kShownFormat) : target.color;
   {
     DrawPass pass(frame, "tone_map",
@@ -75,6 +76,7 @@ void add_tone_map_passes(FrameBuilder& frame) {
     shown = pass.target(shown);
     pass.draw_triangle();
   }
+  if (temporal) return add_temporal_passes(frame, shown, dither);
   if (smooth) return add_antialiasing_passes(frame, shown, dither);
   target.color = shown;
 }

@@ -18,7 +18,7 @@ void add_overdraw_passes(FrameBuilder& frame, const ParticlesFrame* particles) {
   if (frame.visualizer() != "overdraw" || particles == nullptr) return;
   const BufferRef indices = sprite_index_buffer(frame);
   if (!frame.status().ok()) return;
-  DrawProgram program = sprite_program(0, frame.view().clipped, nullptr);
+  DrawProgram program = sprite_program(0, frame.view().clipped, false, nullptr);
   program.fragment = shaders::particles::overdraw_count_frag;
   program.blend = gpu::BlendMode::additive;
   DrawPass count(frame, "particle_overdraw", program);

@@ -14,9 +14,9 @@ std::vector<std::uint32_t> sprite_indices() {
   return indices;
 }
 
-DrawProgram sprite_program(std::uint32_t lit_points, bool clipped, const ParticleLightVersion* version) {
+DrawProgram sprite_program(std::uint32_t lit_points, bool clipped, bool jittered, const ParticleLightVersion* version) {
   DrawProgram program{.fragment = shaders::particles::sprite_frag,
-                      .blend = gpu::BlendMode::premultiplied,
+                      .blend = jittered ? gpu::BlendMode::premultiplied_over : gpu::BlendMode::premultiplied,
                       .vertex = shaders::particles::sprite_vert};
   if (version != nullptr) {
     program.fragment =
@@ -49,7 +49,8 @@ void add_sprite_pass(FrameBuilder& frame, const ParticlesFrame& particles) {
   const ParticleLightVersion version = particle_light_version(frame, particles.inputs.atlas);
   LitOutput& lit = frame.get<LitOutput>();
   DrawPass pass(frame, "particle_sprites",
-                sprite_program(lit_points(lighting), frame.view().clipped, per_pixel ? &version : nullptr));
+                sprite_program(lit_points(lighting), frame.view().clipped, frame.view().jittered,
+                               per_pixel ? &version : nullptr));
   lit.color = pass.target(lit.color, gpu::LoadOp::load);
   pass.test_depth(frame.get<GeometryOutputs>().depth);
   if (per_pixel) read_particle_light(pass, frame, particles.inputs.atlas);

@@ -14,8 +14,10 @@ namespace gloam {
 /// Indices of the two triangles of each sprite of an instance.
 [[nodiscard]] std::vector<std::uint32_t> sprite_indices();
 
-/// lit_points: of a sprite before drawing, 0: none. version: if light is summed at each pixel, otherwise null.
-[[nodiscard]] DrawProgram sprite_program(std::uint32_t lit_points, bool clipped, const ParticleLightVersion* version);
+/// lit_points: of a sprite before drawing, 0: none. jittered: the view is (RenderView). version: if light is summed at
+/// each pixel, otherwise null.
+[[nodiscard]] DrawProgram sprite_program(std::uint32_t lit_points, bool clipped, bool jittered,
+                                         const ParticleLightVersion* version);
 
 /// Draws the sprites into the targets of a pass whose program has sprite.vert as its vertex shader.
 void draw_sprites(DrawPass& pass, FrameBuilder& frame, const ParticlesFrame& particles, BufferRef indices);

@@ -9,7 +9,7 @@
 
 // Maps linear light to the picture: exposure, then the curve, computed (kTable = 0) or looked up in a table (1). The
 // output is rounded to 8 bits by the target (kOutput = 0) or here (1), or is displayed linear light for antialiasing,
-// with the brightness to the eye in alpha (2).
+// with the brightness to the eye (2) or the share of light without motion (3) in alpha.
 
 layout(constant_id = 0) const uint kTable = 0u;
 layout(constant_id = 1) const uint kOutput = 0u;
@@ -31,7 +31,8 @@ float looked_up(float x) {
 
 void main() {
   float exposure = c.metered != 0u ? metered_exposure * c.exposure : c.exposure;
-  vec3 light = texelFetch(lit_image, ivec2(gl_FragCoord.xy), 0).rgb;
+  vec4 lit = texelFetch(lit_image, ivec2(gl_FragCoord.xy), 0);
+  vec3 light = lit.rgb;
   if (kScattered != 0u) {
     vec2 at = gl_FragCoord.xy * c.scattered.uv_scale + c.scattered.uv_offset;
     light = with_scattered_light(light, textureLod(scattered_image, at, 0.0).rgb, c.scattered.share);
@@ -46,6 +47,8 @@ void main() {
   shown = after_curve(c.curve, shown);
   if (kOutput == 2u)
     out_color = vec4(shown, sqrt(dot(shown, vec3(0.2126, 0.7152, 0.0722))));
+  else if (kOutput == 3u)
+    out_color = vec4(shown, 1.0 - lit.a);
   else
     out_color = vec4(value_for_target(shown, uvec2(gl_FragCoord.xy), c.encode_srgb != 0u, kOutput == 1u), 1.0);
 }

@@ -1,0 +1,213 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <glm/ext/matrix_transform.hpp>
+#include <limits>
+#include <vector>
+
+#include "engine/scene/components.h"
+#include "tests/modules/lighting/antialiasing/antialiased_frame.h"
+
+namespace gloam {
+namespace {
+
+/// lighting.antialiasing=taa. One metre is 20 pixels, as in AntialiasedFrame.
+struct AccumulatedFrame : test::AntialiasedFrame {
+  /// A plane that glows as bright as `glow`, at a place, turned by an angle.
+  Entity plane(float glow, const dvec3& at, const glm::dvec2& half, double angle = 0.0) {
+    Material material{.base_color = vec4(0.0f, 0.0f, 0.0f, 1.0f), .metallic = 0.0f, .roughness = 1.0f};
+    material.emissive = vec3(glow);
+    const dmat4 turned = glm::rotate(glm::translate(dmat4(1.0), at), angle, dvec3(0.0, 0.0, 1.0));
+    return scene.draw(scene.mesh(test::quad(1.0f, scene.material(material))), glm::scale(turned, dvec3(half, 1.0)));
+  }
+  /// Slanted edges, wires down to 0.3 pixels, and a wall of stripes behind them.
+  void wires_before_stripes() {
+    for (int i = 0; i < 9; ++i) plane(0.12f, {-2.2 + 0.55 * i, 0.0, -0.5}, {0.15, 2.0}, 0.06);
+    for (int i = 0; i < 5; ++i) plane(0.8f, {-1.2 + 0.6 * i, 0.2, 0.0}, {0.0075 * (i + 1), 1.2}, 0.1 * i - 0.25);
+    plane(0.5f, {0.0, -0.9, 0.2}, {1.3, 0.3}, 0.13);
+  }
+  /// The picture after some frames that are accumulated from the first one on.
+  [[nodiscard]] Picture accumulated(std::uint32_t frames) {
+    set("lighting.antialiasing", "taa");
+    settings.camera_cut = true;
+    for (std::uint32_t i = 0; i < frames; ++i) {
+      draw();
+      settings.camera_cut = false;
+    }
+    return picture();
+  }
+  [[nodiscard]] const RenderView& view(std::uint32_t id = 0) { return world.view_resource<RenderView>(ViewId{id}); }
+  [[nodiscard]] static double psnr(const Picture& a, const Picture& b) {
+    return 20.0 * std::log10(255.0 / root_mean_square(a, b));
+  }
+  [[nodiscard]] static int greatest_difference(const Picture& a, const Picture& b) {
+    int most = 0;
+    for (std::size_t i = 0; i < a.rgba.size(); ++i) most = std::max(most, std::abs(a.rgba[i] - b.rgba[i]));
+    return most;
+  }
+};
+
+TEST_F(AccumulatedFrame, converges_at_rest_to_the_supersampled_picture) {
+  wires_before_stripes();
+  for (const bool orthographic : {true, false}) {
+    settings.camera.orthographic = orthographic;
+    const Picture right = supersampled(64);
+    const double smoothed = psnr(drawn("smaa"), right);
+    EXPECT_GT(psnr(accumulated(16), right), smoothed + 6.0) << orthographic;
+    EXPECT_GT(psnr(accumulated(64), right), smoothed + 6.0) << "and stays there";
+  }
+}
+
+TEST_F(AccumulatedFrame, begins_with_the_picture_without_antialiasing) {
+  wires_before_stripes();
+  const Picture plain = drawn("off"), first = accumulated(1);
+  // Accumulated light is rounded to half floats.
+  EXPECT_LE(greatest_difference(plain, first), 1);
+  EXPECT_EQ(view().jitter, vec2(0.0f));
+}
+
+TEST_F(AccumulatedFrame, has_two_passes_and_motion_only_if_it_is_chosen) {
+  glow(0.2);
+  static_cast<void>(accumulated(2));
+  EXPECT_EQ(antialiasing_passes(), 2u);
+  EXPECT_TRUE(view().jittered);
+  static_cast<void>(drawn("smaa"));
+  EXPECT_EQ(antialiasing_passes(), 3u);
+  EXPECT_FALSE(view().jittered);
+  for (const PassTime& pass : renderer->report().passes) EXPECT_NE(pass.name, "sky_motion");
+}
+
+TEST_F(AccumulatedFrame, shows_views_without_a_history_of_pictures_as_they_are) {
+  glow(0.2);
+  settings.visualizer = "albedo";
+  static_cast<void>(accumulated(3));
+  EXPECT_FALSE(view().jittered) << "a view of the geometry is not shaken";
+  EXPECT_EQ(antialiasing_passes(), 0u);
+  settings.visualizer = "none";
+  settings.purpose = ViewPurpose::reference;
+  static_cast<void>(accumulated(3));
+  EXPECT_FALSE(view().jittered);
+  settings.purpose = ViewPurpose::main;
+  settings.lens = LensPoint{kNoEntity, {0.01, 0.0}, 3.0};
+  static_cast<void>(accumulated(3));
+  EXPECT_FALSE(view().jittered) << "a sample of another mean";
+  EXPECT_EQ(antialiasing_passes(), 3u) << "smoothed as by smaa";
+}
+
+TEST_F(AccumulatedFrame, begins_anew_after_a_cut) {
+  wires_before_stripes();
+  set("lighting.antialiasing", "taa");
+  static_cast<void>(accumulated(7));
+  // A second view, which no frame has drawn before, sees the same from the frame of the cut on.
+  settings.world_from_camera[3].x += 0.37;
+  settings.camera_cut = true;
+  for (int frame = 0; frame < 5; ++frame) {
+    ViewRequest requests[] = {{settings, {}}, {settings, {}}};
+    requests[1].settings.id = ViewId{1};
+    requests[1].settings.camera_cut = false;
+    ASSERT_TRUE(renderer->render(world, requests).ok());
+    ASSERT_TRUE(renderer->wait().ok());
+    EXPECT_EQ(picture(0).rgba, picture(1).rgba) << frame;
+    settings.camera_cut = false;
+  }
+}
+
+TEST_F(AccumulatedFrame, begins_anew_with_another_size_and_with_other_knobs) {
+  wires_before_stripes();
+  set("lighting.antialiasing", "taa");
+  for (int frame = 0; frame < 6; ++frame) {
+    const bool last = frame == 5;
+    // In the last frame the first view has lost its history because of the knob, the second because of its size.
+    set("lighting.tone_map", last ? "reinhard" : "filmic");
+    ViewRequest requests[] = {{settings, {}}, {settings, {}}};
+    requests[1].settings.id = ViewId{1};
+    if (!last) requests[1].settings.height -= 2;
+    ASSERT_TRUE(renderer->render(world, requests).ok());
+    ASSERT_TRUE(renderer->wait().ok());
+  }
+  EXPECT_EQ(view(0).jitter, view(1).jitter);
+  EXPECT_NE(view(0).jitter, vec2(0.0f));
+  EXPECT_EQ(picture(0).rgba, picture(1).rgba);
+}
+
+TEST_F(AccumulatedFrame, is_the_same_twice) {
+  wires_before_stripes();
+  const Picture first = accumulated(11);
+  EXPECT_EQ(first.rgba, accumulated(11).rgba);
+  for (const auto& [width, height] : {std::pair{1u, 1u}, {2u, 2u}, {1u, 33u}, {65u, 3u}, {97u, 61u}}) {
+    settings.width = width;
+    settings.height = height;
+    const Picture one = accumulated(5);
+    EXPECT_EQ(one.rgba, accumulated(5).rgba) << width << "x" << height;
+  }
+}
+
+TEST_F(AccumulatedFrame, reads_the_same_frame_again_without_a_step) {
+  wires_before_stripes();
+  const Picture shown = accumulated(6);
+  static_cast<void>(test::value_of(renderer->read_image(world, settings.id, "depth")));
+  EXPECT_EQ(picture().rgba, shown.rgba);
+}
+
+TEST_F(AccumulatedFrame, keeps_no_ghost_of_a_box_for_more_than_four_frames) {
+  for (int i = 0; i < 16; ++i) plane(i % 2 == 0 ? 0.1f : 0.3f, {-2.25 + 0.3 * i, 0.0, -0.5}, {0.15, 2.0});
+  const Entity box = plane(3.0f, {-1.8, 0.0, 0.5}, {0.3, 0.6});
+  set("lighting.antialiasing", "taa");
+  // Each frame as it would be if the box had never been there: the same frames of the wall alone.
+  ViewSettings alone = settings;
+  alone.id = ViewId{1};
+  std::vector<Picture> with_box, without_box;
+  for (const bool shown : {true, false}) {
+    settings.camera_cut = true;
+    for (int frame = 0; frame < 14; ++frame) {
+      const double x = shown ? -1.8 + 0.3 * frame : 100.0;
+      world.get<WorldTransform>(box).matrix =
+          glm::scale(glm::translate(dmat4(1.0), dvec3(x, 0.0, 0.5)), dvec3(0.3, 0.6, 1.0));
+      draw();
+      settings.camera_cut = false;
+      (shown ? with_box : without_box).push_back(picture());
+    }
+  }
+  for (int frame = 4; frame < 14; ++frame) {
+    // The left edge of the box four frames ago: everything to the left of it has been free for more than four frames.
+    const double left_edge = -1.8 + 0.3 * (frame - 4) - 0.3;
+    const int columns = static_cast<int>(48 + 20.0 * left_edge) - 1;
+    const Picture &a = with_box[static_cast<std::size_t>(frame)], &b = without_box[static_cast<std::size_t>(frame)];
+    int most = 0;
+    for (std::uint32_t y = 0; y < a.height; ++y)
+      for (std::uint32_t i = 0; i < 4u * static_cast<std::uint32_t>(std::max(columns, 0)); ++i)
+        most = std::max(most, std::abs(a.rgba[y * a.width * 4 + i] - b.rgba[y * a.width * 4 + i]));
+    EXPECT_LE(most, 12) << "frame " << frame << ", " << columns << " columns";
+  }
+}
+
+TEST_F(AccumulatedFrame, follows_light_that_changes_at_rest_within_four_frames) {
+  Material white{.base_color = vec4(0.8f, 0.8f, 0.8f, 1.0f), .metallic = 0.0f, .roughness = 1.0f};
+  scene.draw(scene.mesh(test::quad(2.0f, scene.material(white))));
+  const Entity lamp = light({.intensity = 3.0f}, {0.0, 0.0, 1.5});
+  static_cast<void>(accumulated(20));
+  const Picture bright = picture();
+  world.get<Light>(lamp).intensity = 0.3f;
+  for (int frame = 0; frame < 4; ++frame) draw();
+  const Picture after = picture();
+  const Picture right = accumulated(20);
+  EXPECT_GT(greatest_difference(bright, right), 60);
+  EXPECT_LE(greatest_difference(after, right), 4);
+}
+
+TEST_F(AccumulatedFrame, forgets_light_that_is_not_finite) {
+  plane(0.2f, dvec3(0.0), {1.5, 1.5});
+  const Picture right = accumulated(8);
+  for (const float bad : {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()}) {
+    const Entity spot = plane(bad, {0.3, 0.2, 0.3}, {0.4, 0.4});
+    static_cast<void>(accumulated(3));
+    world.destroy(spot);
+    for (int frame = 0; frame < 8; ++frame) draw();
+    EXPECT_LE(greatest_difference(picture(), right), 1) << bad;
+  }
+}
+
+}  // namespace
+}  // namespace gloam
