@@ -88,8 +88,11 @@ class LightingModule final : public Module {
     if (phase == PassPhase::output) add_tone_map_passes(frame);
   }
 
-  void counters(const World& world, const RenderView&, CounterSink& sink) const override {
-    count_exposure(world, sink);
+  void take_result(World& world, ViewId view, std::string_view name, const FrameResult& result) const override {
+    take_metered_exposure(world, view, name, result);
+  }
+  void counters(const World& world, const RenderView& view, CounterSink& sink) const override {
+    count_exposure(world, view, sink);
   }
   void result_counters(std::string_view name, const FrameResult& result, CounterSink& sink) const override {
     count_metered_exposure(name, result, sink);

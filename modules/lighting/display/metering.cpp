@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "modules/lighting/display/metering.h"
 
+#include <any>
 #include <cmath>
+#include <map>
 
 #include "engine/render/camera/light_scale.h"
 #include "engine/render/declare/compute_pass.h"
@@ -17,6 +19,24 @@ namespace {
 
 constexpr const char* kExposureResult = "exposure";
 
+/// Which camera's exposure a result is.
+struct ExposureNote {
+  std::uint64_t camera = 0;
+};
+
+/// View resource: the exposures that frames of the view have metered, by camera. Fixed ones are metered once only.
+struct MeteredExposures {
+  std::map<std::uint64_t, double> ev100;
+};
+
+std::uint64_t camera_of(const RenderView& view) {
+  return std::uint64_t{view.camera_entity.generation} << 32 | view.camera_entity.index;
+}
+
+double ev100_of(const FrameResult& result) {
+  return -std::log2(1.2 * static_cast<double>(result.value<shaders::MeteredExposure>().exposure));
+}
+
 /// The metered exposure of the view's camera. It stays for as long as frames show the camera: History destroys it
 /// later.
 Result<HistoryBuffer> metered_buffer(FrameBuilder& frame) {
@@ -25,10 +45,9 @@ Result<HistoryBuffer> metered_buffer(FrameBuilder& frame) {
   desc.module = "lighting";
   desc.size = sizeof(shaders::MeteredExposure);
   desc.usage = gpu::BufferUsage::storage | gpu::BufferUsage::transfer_source;
-  const Entity camera = frame.view().camera_entity;
-  return frame.history_buffer(desc, {.scope = HistoryScope::view,
-                                     .final_access = gpu::Access::fragment_read,
-                                     .instance = std::uint64_t{camera.generation} << 32 | camera.index});
+  return frame.history_buffer(
+      desc,
+      {.scope = HistoryScope::view, .final_access = gpu::Access::fragment_read, .instance = camera_of(frame.view())});
 }
 
 /// The share of its way to the right exposure, in stops, that an exposure goes in dt_s.
@@ -77,23 +96,34 @@ FrameExposure add_exposure_passes(FrameBuilder& frame) {
     const ExposureMode mode = frame.world().try_resource<MeteredInEveryFrame>() == nullptr
                                   ? ExposureMode::fixed
                                   : frame.knobs().value(kExposure);
-    if (!metered->filled() || mode != ExposureMode::fixed)
+    if (!metered->filled() || mode != ExposureMode::fixed) {
       add_meter_pass(frame, metered->buffer, mode, !metered->filled());
-    frame.keep_result("lighting", kExposureResult, metered->buffer);
+      frame.keep_result("lighting", kExposureResult, metered->buffer, ExposureNote{camera_of(frame.view())});
+    }
   }
   exposure.buffer = metered->buffer;
   return exposure;
 }
 
-void count_exposure(const World& world, CounterSink& sink) {
+void take_metered_exposure(World& world, ViewId view, std::string_view result_name, const FrameResult& result) {
+  if (result_name != kExposureResult) return;
+  if (world.try_view_resource<MeteredExposures>(view) == nullptr) world.set_view_resource(view, MeteredExposures{});
+  const auto note = std::any_cast<ExposureNote>(result.note);
+  world.view_resource<MeteredExposures>(view).ev100[note.camera] = ev100_of(result);
+}
+
+void count_exposure(const World& world, const RenderView& view, CounterSink& sink) {
+  constexpr const char* kCounter = "lighting.exposure_ev100";
   if (has_stated_exposure(world))
-    sink.count("lighting.exposure_ev100", static_cast<double>(world.resource<SceneEnvironment>().exposure_ev100));
+    return sink.count(kCounter, static_cast<double>(world.resource<SceneEnvironment>().exposure_ev100));
+  const auto* metered = world.try_view_resource<MeteredExposures>(view.id);
+  if (metered == nullptr) return;
+  const auto found = metered->ev100.find(camera_of(view));
+  if (found != metered->ev100.end()) sink.count(kCounter, found->second);
 }
 
 void count_metered_exposure(std::string_view result_name, const FrameResult& result, CounterSink& sink) {
-  if (result_name != kExposureResult) return;
-  const double exposure = static_cast<double>(result.value<shaders::MeteredExposure>().exposure);
-  sink.count("lighting.exposure_ev100", -std::log2(1.2 * exposure));
+  if (result_name == kExposureResult) sink.count("lighting.exposure_ev100", ev100_of(result));
 }
 
 }  // namespace gloam

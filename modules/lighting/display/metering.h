@@ -24,9 +24,12 @@ void choose_exposure(World& world, const KnobRegistry& knobs);
 /// gives the frame up.
 [[nodiscard]] FrameExposure add_exposure_passes(FrameBuilder& frame);
 
-/// Counters of the exposure: "lighting.exposure_ev100", of exposures that the scene states from the CPU, of metered
-/// ones from the GPU.
-void count_exposure(const World& world, CounterSink& sink);
+/// Keeps a metered exposure for count_exposure(). For Module::take_result.
+void take_metered_exposure(World& world, ViewId view, std::string_view result_name, const FrameResult& result);
+/// The counter "lighting.exposure_ev100": the exposure that the scene states, or the last one that was metered for the
+/// view's camera and has come back from the GPU.
+void count_exposure(const World& world, const RenderView& view, CounterSink& sink);
+/// The same, from a frame that has metered.
 void count_metered_exposure(std::string_view result_name, const FrameResult& result, CounterSink& sink);
 
 }  // namespace gloam

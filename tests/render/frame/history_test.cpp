@@ -187,7 +187,7 @@ TEST_F(HistoryFrames, an_exposure_is_metered_once_for_each_camera) {
   EXPECT_TRUE(metered(second));
   EXPECT_FALSE(metered(first));
   EXPECT_FALSE(metered(second));
-  EXPECT_EQ(bytes("lighting"), 8u);
+  EXPECT_EQ(bytes("lighting"), 16u) << "eight for each camera";
 }
 
 TEST_F(HistoryFrames, an_exposure_that_was_metered_in_a_frame_given_up_is_metered_again) {

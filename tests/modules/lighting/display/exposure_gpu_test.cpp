@@ -121,6 +121,15 @@ TEST_F(ExposureOfFrames, is_counted) {
     for (int frame = 0; frame < 4; ++frame) ASSERT_NO_FATAL_FAILURE(draw());
     EXPECT_NEAR(counted(), -std::log2(1.2 * right_exposure()), 0.01) << mode;
   }
+  // One that was metered once, in an earlier frame and for another camera, too.
+  const double first = counted();
+  ViewSettings other = settings;
+  other.camera_entity = world.create();
+  set_sky(8.0f);
+  for (int frame = 0; frame < 4; ++frame) ASSERT_NO_FATAL_FAILURE(draw(world, other));
+  EXPECT_NEAR(counted(), -std::log2(1.2 * right_exposure()), 0.01);
+  ASSERT_NO_FATAL_FAILURE(draw());
+  EXPECT_EQ(counted(), first);
 }
 
 TEST_F(ExposureOfFrames, of_light_that_is_no_number_stays_a_number) {
