@@ -9,7 +9,7 @@
 namespace gloam {
 namespace {
 
-constexpr std::uint64_t kSmallestBuffer = 1024;  // bytes; sizes are powers of two, so that buffers are rarely recreated
+constexpr std::uint64_t kSmallestBuffer = 4096;  // bytes; sizes are powers of two, so that buffers are rarely recreated
 
 }  // namespace
 

@@ -11,6 +11,7 @@
 #include "modules/closeups/components.h"
 #include "modules/depth_of_field/components.h"
 #include "modules/fog/components.h"
+#include "modules/glare/components.h"
 #include "modules/grass/components.h"
 #include "modules/particles/components.h"
 #include "modules/reflections/components.h"
@@ -56,6 +57,7 @@ Entity fill_with_every_effect(World& world) {
   smoke.kind = EmitterKind::smoke;
   world.create(WorldTransform{at(-1, 0, 2)}, smoke);
   world.create(Fog{0.05f, vec3(1.0f, 2.0f, 3.0f)});
+  add_default_glare(world);
   const ViewSettings settings = test::look_at(dvec3(2.0, 3.0, 9.0), dvec3(0.0), 96, 64);
   return world.create(WorldTransform{settings.world_from_camera}, Camera{},
                       DepthOfField{.focus_m = 6.0f, .f_number = 1.0f});
