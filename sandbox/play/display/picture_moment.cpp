@@ -62,6 +62,9 @@ PictureMoment picture_moment(const Session& session, const ViewSettings& view, d
 
 bool scene_moves(const Session& session) {
   if (!session.world.resource<SceneAssets>().clips.empty()) return true;
+  const KnobRegistry& knobs = session.renderer->knobs();
+  const Knob* exposure = knobs.find("lighting.exposure");
+  if (exposure != nullptr && knobs.text(*exposure) == "adapting") return true;
   constexpr std::array<std::string_view, 2> kSimulate = {"grass", "particles"};
   const FrameReport report = session.renderer->report();
   return std::ranges::any_of(report.modules, [&](const ModuleState& module) {

@@ -83,7 +83,7 @@ TEST_F(FrameResultsTest, cost_one_pass_and_no_memory_without_requests) {
   EXPECT_TRUE(texts("copy_buffer").empty());
   EXPECT_EQ(bytes_of_module("engine"), 0u);
   for (std::uint32_t i = 0; i < 6; ++i) frame(i, {key("a"), key("b")});
-  EXPECT_EQ(bytes_of_module("engine"), 2u * 1024u) << "a piece a frame in flight";
+  EXPECT_EQ(bytes_of_module("engine"), 2u * 4096u) << "a piece a frame in flight";
   EXPECT_EQ(graph.plans_compiled(), 2u) << "one without and one with results";
 }
 
