@@ -193,7 +193,7 @@ void LampScattering::add_point(const FogRay& ray, const LitPart& part, double at
 
 void LampScattering::send_shadow_rays(std::uint32_t pixel) {
   rays_.clear();
-  sent_.clear();
+  carried_.clear();
   if (points_.empty()) return;
   constexpr double kRoot = 1.32471795724474602596;  // of x³ = x + 1 (Roberts 2018)
   const double total = points_.back().up_to;
@@ -208,8 +208,8 @@ void LampScattering::send_shadow_rays(std::uint32_t pixel) {
     const double x = glm::fract(shift_x + k / kRoot), y = glm::fract(shift_y + k / (kRoot * kRoot));
     ShadowRay ray;
     if (aim_at_emitter(*point->light, point->position, x, y, ray)) {
-      rays_.push_back(ray);
-      sent_.push_back({point->light->bulbs, carried});
+      rays_.add(ray, point->light->bulbs);
+      carried_.push_back(carried);
     } else {
       light_ += carried;
     }
@@ -217,20 +217,9 @@ void LampScattering::send_shadow_rays(std::uint32_t pixel) {
 }
 
 void LampScattering::add_unblocked() {
-  for (std::uint32_t set = 0; set < lights_.bulbs.size(); ++set) {
-    batch_.clear();
-    batch_from_.clear();
-    for (std::size_t i = 0; i < sent_.size(); ++i) {
-      if (sent_[i].bulbs != set) continue;
-      batch_.push_back(rays_[i]);
-      batch_from_.push_back(i);
-    }
-    if (batch_.empty()) continue;
-    blocked_.resize(batch_.size());
-    tracer_.occluded(batch_, blocked_, lights_.bulbs[set]);
-    for (std::size_t i = 0; i < batch_.size(); ++i)
-      if (blocked_[i] == 0) light_ += sent_[batch_from_[i]].carried;
-  }
+  const std::span<const std::uint8_t> blocked = rays_.blocked(lights_, tracer_);
+  for (std::size_t i = 0; i < carried_.size(); ++i)
+    if (blocked[i] == 0) light_ += carried_[i];
 }
 
 std::vector<dvec3> scatter_lamps(const FogRaysInput& input, const Fog& fog) {

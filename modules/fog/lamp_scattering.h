@@ -58,10 +58,6 @@ class LampScattering {
     dvec3 carried = dvec3(0.0);
     double up_to = 0.0;  ///< sum of the brightness of points up to this one
   };
-  struct SentRay {
-    std::uint32_t bulbs = 0;  ///< TwinLight::bulbs
-    dvec3 carried = dvec3(0.0);
-  };
 
   void find_lit_parts(const FogRay& ray);
   void add_points(const FogRay& ray, const LitPart& part, std::uint32_t count, double shift);
@@ -76,10 +72,8 @@ class LampScattering {
   dvec3 light_ = dvec3(0.0);  ///< of the current ray
   std::vector<LitPart> parts_;
   std::vector<LitPoint> points_;
-  std::vector<ShadowRay> rays_, batch_;
-  std::vector<SentRay> sent_;
-  std::vector<std::size_t> batch_from_;
-  std::vector<std::uint8_t> blocked_;
+  BulbRays rays_;
+  std::vector<dvec3> carried_;  ///< by each of them, if nothing blocks it
 };
 
 struct FogRaysInput {

@@ -53,4 +53,20 @@ inline constexpr double kRayRounding = 2e-6;
 /// in [0, 1) that choose the point. Returns false if the light is so near that nothing can block it.
 [[nodiscard]] bool aim_at_emitter(const TwinLight& light, const dvec3& start, double x, double y, ShadowRay& ray);
 
+/// Shadow rays to lights with different bulbs, traced together. Not thread-safe.
+class BulbRays {
+ public:
+  void clear();
+  /// bulbs: TwinLight::bulbs of the ray's light.
+  void add(const ShadowRay& ray, std::uint32_t bulbs);
+  /// For each ray, in the order in which they were added: not 0 if something blocks it. Valid until the next call.
+  [[nodiscard]] std::span<const std::uint8_t> blocked(const TwinLights& lights, const SceneTracer& tracer);
+
+ private:
+  std::vector<ShadowRay> rays_, batch_;
+  std::vector<std::uint32_t> bulbs_;
+  std::vector<std::size_t> batch_from_;
+  std::vector<std::uint8_t> batch_blocked_, blocked_;
+};
+
 }  // namespace gloam

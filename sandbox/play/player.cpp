@@ -77,8 +77,7 @@ Status Player::run() {
     if (shown_) GLOAM_TRY(count_shown(frames++ == 0));
   }
   panel_.keep_changes(options_.scene, log_);
-  lasting_.scale = scale_.setting();
-  lasting_.panel = panel_.shown();
+  keep_settings();
   return session_.renderer->wait();
 }
 
@@ -141,7 +140,7 @@ void Player::set_wipe(bool on, float at) {
 WindowInput Player::poll() {
   play_script();
   // Nothing changes in the window: it is only drawn again in case something has covered it.
-  if (next_ == Refinement::Next::kept && !active_) pictures_.window().wait(kKeptPictureS);
+  if (refinement_.now() == Refinement::Next::kept && !active_) pictures_.window().wait(kKeptPictureS);
   return pictures_.window().poll();
 }
 
@@ -241,7 +240,7 @@ void Player::drop_view_without_its_knob() {
 
 /// With views.range=fit the scale follows the picture: at once after a change of the view, then now and then.
 Status Player::choose_heat_range() {
-  if (next_ != Refinement::Next::reduced) return {};  // a new range would be a new picture
+  if (refinement_.now() != Refinement::Next::reduced) return {};  // a new range would be a new picture
   Renderer& renderer = *session_.renderer;
   const std::string& shown = settings_.visualizer;
   if (!fits_heat_range(renderer.knobs()) || !shows_heat(renderer, shown)) {
@@ -298,7 +297,7 @@ double Player::moving_scale() const {
   return options_.budget_ms ? view_scale(session_.renderer->knobs()) : scale_.scale();
 }
 
-double Player::scale() const { return next_ == Refinement::Next::reduced ? moving_scale() : 1.0; }
+double Player::scale() const { return refinement_.now() == Refinement::Next::reduced ? moving_scale() : 1.0; }
 
 void Player::choose_refinement(const WindowInput& input) {
   active_ = !(input.panel == last_panel_input_);
@@ -307,22 +306,17 @@ void Player::choose_refinement(const WindowInput& input) {
   const bool moves = !stands && scene_moves(session_);
   // A chosen scale stays, as does that of a budget, whose setting the window shows; and so do measured runs.
   const bool wanted = scale_.setting() == 0.0 && !options_.budget_ms && options_.frames == 0;
-  if (!wanted || moves || wipe_.shown().on || moving_scale() == 1.0) {
-    refinement_.restart();
-    next_ = Refinement::Next::reduced;
-    return;
-  }
+  if (!wanted || moves || wipe_.shown().on || moving_scale() == 1.0) return refinement_.restart();
   PictureMoment moment = picture_moment(session_, settings_, stands ? time_s_ : 0.0);
   moment.numbers.push_back(static_cast<double>(reloads_));
-  next_ = refinement_.next(moment, frame_s_, active_);
-  if (next_ != Refinement::Next::reduced) unjudged_ = kUnjudgedAfterFull;
+  if (refinement_.next(moment, frame_s_, active_) != Refinement::Next::reduced) unjudged_ = kUnjudgedAfterFull;
 }
 
 std::string Player::scale_note() const {
   if (moving_scale() == 1.0) return {};
   if (options_.budget_ms) return "the budget chooses the scale, also at rest";
   if (scale_.setting() > 0.0) return {};
-  if (next_ != Refinement::Next::reduced)
+  if (refinement_.now() != Refinement::Next::reduced)
     return "at rest: full size; " + scale_text(moving_scale(), moving_scale()) + " when something moves";
   if (!paused_ && scene_moves(session_)) return "the scene moves; pause it to see it at full size";
   return "full size when nothing moves";
@@ -354,12 +348,11 @@ Result<bool> Player::draw() {
     settings_.height = pictures_.height();
     scale_.start(settings_.width, settings_.height, scale_limits(on_software_).first_pixels);
     refinement_.restart();
-    next_ = Refinement::Next::reduced;
   }
   const bool stands = paused_ && !step_once_;
   const double dt_s = stands ? 0.0 : options_.fixed_step || step_once_ ? options_.dt_s : step_s_;
   session_.set_clock(time_s_, dt_s);
-  const bool again = next_ == Refinement::Next::kept && upscaler_.kept_image();
+  const bool again = refinement_.now() == Refinement::Next::kept && upscaler_.kept_image();
   const auto asked = again ? ViewRequest() : request();
   if (!asked) return asked.error();
   bool shown = false;
@@ -372,7 +365,7 @@ Result<bool> Player::draw() {
   };
   GLOAM_TRY(run_beside(draw_and_show));
   if (shown) {
-    if (next_ == Refinement::Next::full) refinement_.shown_full();
+    if (refinement_.now() == Refinement::Next::full) refinement_.shown_full();
     time_s_ += dt_s;
     step_once_ = settings_.camera_cut = false;
   }
@@ -436,7 +429,7 @@ Result<ViewRequest> Player::request() {
   request.settings.height = scaled_side(settings_.height, scale);
   if (scale != drawn_scale_ && drawn_scale_ != 0.0) session_.renderer->free_idle_memory();
   drawn_scale_ = scale;
-  const bool keeps = next_ == Refinement::Next::full;
+  const bool keeps = refinement_.now() == Refinement::Next::full;
   if (!keeps && request.settings.width == settings_.width && request.settings.height == settings_.height) {
     upscaler_.release();
     request.target.after = gpu::Access::present;

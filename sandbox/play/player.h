@@ -117,7 +117,6 @@ class Player {
   Upscaler upscaler_;
   KeptPicture kept_picture_;
   Refinement refinement_;
-  Refinement::Next next_ = Refinement::Next::reduced;
   std::uint32_t unjudged_ = 0;   ///< frames whose times say nothing about the reduced scale
   std::uint64_t reloads_ = 0;    ///< of shaders
   PanelInput last_panel_input_;  ///< of the last frame

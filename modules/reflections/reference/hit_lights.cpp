@@ -55,7 +55,7 @@ void HitLights::choose_lights(const HitSurfaces& hits, std::uint32_t hit, std::u
     const auto chosen = std::lower_bound(candidates_.begin(), candidates_.end() - 1, at_share * total,
                                          [](const Candidate& c, double at) { return c.up_to < at; });
     const double probability = brightness_of(chosen->reflected) / total;
-    const Carried carried = {hit, chosen->light->bulbs, chosen->reflected / (probability * samples)};
+    const Carried carried = {hit, chosen->reflected / (probability * samples)};
     send_shadow_ray(hits, *chosen->light, carried, sequence.emitter(hit * samples + k));
   }
 }
@@ -76,25 +76,14 @@ void HitLights::send_shadow_ray(const HitSurfaces& hits, const TwinLight& light,
   }
   const double above = glm::dot(dvec3(shadow.direction), face_normal);
   if (!s.subsurface && above < -kBehindSurface * static_cast<double>(glm::length(shadow.direction))) return;
-  shadow_rays_.push_back(shadow);
+  shadow_rays_.add(shadow, light.bulbs);
   carried_.push_back(carried);
 }
 
 void HitLights::add_unblocked_light(std::span<dvec3> radiance) {
-  for (std::uint32_t set = 0; set < lights_.bulbs.size(); ++set) {
-    batch_.clear();
-    batch_from_.clear();
-    for (std::size_t i = 0; i < carried_.size(); ++i) {
-      if (carried_[i].bulbs != set) continue;
-      batch_.push_back(shadow_rays_[i]);
-      batch_from_.push_back(i);
-    }
-    if (batch_.empty()) continue;
-    blocked_.resize(batch_.size());
-    tracer_.occluded(batch_, blocked_, lights_.bulbs[set]);
-    for (std::size_t i = 0; i < batch_.size(); ++i)
-      if (blocked_[i] == 0) radiance[carried_[batch_from_[i]].hit] += carried_[batch_from_[i]].light;
-  }
+  const std::span<const std::uint8_t> blocked = shadow_rays_.blocked(lights_, tracer_);
+  for (std::size_t i = 0; i < carried_.size(); ++i)
+    if (blocked[i] == 0) radiance[carried_[i].hit] += carried_[i].light;
 }
 
 }  // namespace gloam

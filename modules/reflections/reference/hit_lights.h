@@ -42,7 +42,6 @@ class HitLights {
   /// Light that one shadow ray carries to a surface if nothing blocks it.
   struct Carried {
     std::uint32_t hit = 0;
-    std::uint32_t bulbs = 0;  ///< TwinLight::bulbs
     dvec3 light = dvec3(0.0);
   };
 
@@ -55,10 +54,8 @@ class HitLights {
   const SceneTracer& tracer_;
   const dvec3 camera_;
   std::vector<Candidate> candidates_;
-  std::vector<ShadowRay> shadow_rays_, batch_;
+  BulbRays shadow_rays_;
   std::vector<Carried> carried_;
-  std::vector<std::size_t> batch_from_;
-  std::vector<std::uint8_t> blocked_;
 };
 
 /// Where a ray from a surface begins: above the surface by its error. Positions are relative to the tracer's origin;

@@ -5,21 +5,17 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <mutex>
 #include <numbers>
-#include <span>
 #include <utility>
 #include <vector>
 
-#include "engine/core/assert.h"
-#include "engine/core/hash.h"
 #include "engine/math/finite.h"
 #include "engine/scene/assets.h"
 #include "engine/scene/resources.h"
 #include "modules/reflections/reference/adapter.h"
 #include "modules/reflections/reference/hit_lights.h"
 #include "modules/reflections/reference/lobe.h"
-#include "modules/reflections/reference/pixel_surface.h"
+#include "modules/reflections/reference/traced_rows.h"
 #include "modules/shadows/reference.h"
 
 namespace gloam {
@@ -91,35 +87,10 @@ class DiffuseTracer {
 }  // namespace
 
 TracedIndirect trace_indirect(const RadianceInput& input) {
-  const GeometryPicture& geometry = input.geometry;
-  GLOAM_ASSERT(geometry.depth.size() == std::size_t{geometry.view.width} * geometry.view.height, "a depth a pixel");
-  GLOAM_ASSERT(input.settings.rays > 0 && input.settings.light_samples > 0, "at least one sample");
   TracedIndirect traced;
-  traced.width = geometry.view.width;
-  traced.height = geometry.view.height;
-  traced.samples = input.settings.rays;
-  traced.radiance.assign(4 * traced.pixels(), 0.0f);
   const TwinLights lights = gather_lights(input.world, input.tracer);
-  std::mutex mutex;
-  std::size_t done = 0;
-  input.executor.parallel_for(traced.height, 1, [&](JobRange rows) {
-    DiffuseTracer tracer(input, lights);
-    for (auto y = static_cast<std::uint32_t>(rows.begin); y < rows.end; ++y) {
-      for (std::uint32_t x = 0; x < traced.width; ++x) {
-        const PixelSurface surface = pixel_surface(geometry, x, y);
-        if (!surface.exists) continue;
-        const std::uint32_t pixel = y * traced.width + x;
-        const vec3 radiance(tracer.trace(surface, pixel));
-        float* const texel = &traced.radiance[4 * std::size_t{pixel}];
-        for (int c = 0; c < 3; ++c) texel[c] = radiance[c];
-        texel[3] = 1.0f;
-      }
-      if (!input.progress) continue;
-      const std::lock_guard lock(mutex);
-      input.progress(++done, traced.height);
-    }
-  });
-  traced.version = Hasher().bytes(std::as_bytes(std::span(traced.radiance))).digest();
+  trace_rows(
+      input, traced, [&] { return DiffuseTracer(input, lights); }, [](const PixelSurface&) { return true; });
   return traced;
 }
 

@@ -5,19 +5,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <mutex>
 #include <vector>
 
 #include "engine/core/assert.h"
-#include "engine/core/hash.h"
 #include "engine/math/finite.h"
 #include "engine/render/camera/light_scale.h"
 #include "engine/scene/assets.h"
 #include "engine/scene/resources.h"
 #include "modules/reflections/reference/hit_lights.h"
 #include "modules/reflections/reference/lobe.h"
-#include "modules/reflections/reference/pixel_surface.h"
 #include "modules/reflections/reference/shading.h"
+#include "modules/reflections/reference/traced_rows.h"
 #include "modules/shadows/reference.h"
 
 namespace gloam {
@@ -226,45 +224,15 @@ class PixelTracer {
   std::vector<QuadLayer> layers_;
 };
 
-std::uint64_t content_hash(const TracedReflections& traced) {
-  Hasher hasher;
-  hasher.value(traced.width).value(traced.height).value(traced.samples);
-  return hasher.bytes(std::as_bytes(std::span(traced.radiance))).digest();
-}
-
 }  // namespace
 
 TracedReflections trace_radiance(const RadianceInput& input) {
-  const GeometryPicture& geometry = input.geometry;
-  GLOAM_ASSERT(geometry.depth.size() == std::size_t{geometry.view.width} * geometry.view.height, "a depth a pixel");
-  GLOAM_ASSERT(input.settings.rays > 0 && input.settings.light_samples > 0, "at least one sample");
   GLOAM_ASSERT(input.settings.bounces > 0, "at least one bounce");
   TracedReflections traced;
-  traced.width = geometry.view.width;
-  traced.height = geometry.view.height;
-  traced.samples = input.settings.rays;
-  traced.radiance.assign(4 * traced.pixels(), 0.0f);
   const TwinLights lights = gather_lights(input.world, input.tracer);
-  std::mutex mutex;
-  std::size_t done = 0;
-  input.executor.parallel_for(traced.height, 1, [&](JobRange rows) {
-    PixelTracer tracer(input, lights);
-    for (auto y = static_cast<std::uint32_t>(rows.begin); y < rows.end; ++y) {
-      for (std::uint32_t x = 0; x < traced.width; ++x) {
-        const PixelSurface surface = pixel_surface(geometry, x, y);
-        if (!surface.exists || !(surface.reflectivity > 0.0)) continue;
-        const std::uint32_t pixel = y * traced.width + x;
-        const vec3 radiance(tracer.trace(surface, pixel));
-        float* const texel = &traced.radiance[4 * std::size_t{pixel}];
-        for (int c = 0; c < 3; ++c) texel[c] = radiance[c];
-        texel[3] = 1.0f;
-      }
-      if (!input.progress) continue;
-      const std::lock_guard lock(mutex);
-      input.progress(++done, traced.height);
-    }
-  });
-  traced.version = content_hash(traced);
+  trace_rows(
+      input, traced, [&] { return PixelTracer(input, lights); },
+      [](const PixelSurface& surface) { return surface.reflectivity > 0.0; });
   return traced;
 }
 

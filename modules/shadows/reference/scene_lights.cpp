@@ -134,4 +134,32 @@ bool aim_at_emitter(const TwinLight& light, const dvec3& start, double x, double
   return true;
 }
 
+void BulbRays::clear() {
+  rays_.clear();
+  bulbs_.clear();
+}
+
+void BulbRays::add(const ShadowRay& ray, std::uint32_t bulbs) {
+  rays_.push_back(ray);
+  bulbs_.push_back(bulbs);
+}
+
+std::span<const std::uint8_t> BulbRays::blocked(const TwinLights& lights, const SceneTracer& tracer) {
+  blocked_.resize(rays_.size());
+  for (std::uint32_t set = 0; set < lights.bulbs.size(); ++set) {
+    batch_.clear();
+    batch_from_.clear();
+    for (std::size_t i = 0; i < rays_.size(); ++i) {
+      if (bulbs_[i] != set) continue;
+      batch_.push_back(rays_[i]);
+      batch_from_.push_back(i);
+    }
+    if (batch_.empty()) continue;
+    batch_blocked_.resize(batch_.size());
+    tracer.occluded(batch_, batch_blocked_, lights.bulbs[set]);
+    for (std::size_t i = 0; i < batch_.size(); ++i) blocked_[batch_from_[i]] = batch_blocked_[i];
+  }
+  return blocked_;
+}
+
 }  // namespace gloam

@@ -8,15 +8,20 @@ Refinement::Next Refinement::next(const PictureMoment& now, double frame_s, bool
   if (now != moment_) {
     moment_ = now;
     restart();
-    return Next::reduced;
+    return now_;
   }
   rested_s_ = active ? 0.0 : rested_s_ + frame_s;
-  if (full_frames_ == kFullFrames) return Next::kept;
-  if (rested_s_ >= kRestS) return Next::full;
-  return refined() ? Next::kept : Next::reduced;
+  if (full_frames_ == kFullFrames)
+    now_ = Next::kept;
+  else if (rested_s_ >= kRestS)
+    now_ = Next::full;
+  else
+    now_ = refined() ? Next::kept : Next::reduced;
+  return now_;
 }
 
 void Refinement::restart() {
+  now_ = Next::reduced;
   rested_s_ = 0.0;
   full_frames_ = 0;
 }

@@ -24,7 +24,9 @@ class Refinement {
     kept,     ///< show the last full picture again
   };
   /// Before each frame. frame_s: since the last frame. active: the user has done something since then.
-  [[nodiscard]] Next next(const PictureMoment& now, double frame_s, bool active);
+  Next next(const PictureMoment& now, double frame_s, bool active);
+  /// What next() has said for this frame; reduced after a restart.
+  [[nodiscard]] Next now() const { return now_; }
   /// A frame of Next::full was shown.
   void shown_full() { ++full_frames_; }
   /// Draws at the reduced scale until the picture has rested again: the window's size has changed, or the kept picture
@@ -34,6 +36,7 @@ class Refinement {
   [[nodiscard]] bool refined() const { return full_frames_ > 0; }
 
  private:
+  Next now_ = Next::reduced;
   PictureMoment moment_;
   double rested_s_ = 0.0;  ///< since the moment changed or the user was active
   std::uint32_t full_frames_ = 0;
