@@ -177,8 +177,10 @@ std::vector<CommandApp> add_commands(CLI::App& root, Options& options, RawTexts&
       ->type_name("N")
       ->check(CLI::Range(1, 256));
   bake->add_flag("--beside", options.beside, "Write the captures beside the scene file, not to the cache");
-  add_cost_options(*add(Command::cost, "cost", "Measure error and time of each knob's values"), options, raw);
-  CLI::App* bench = add(Command::bench, "bench", "Run benchmarks: the papers' tables and the CPU systems");
+  add_cost_options(*add(Command::cost, "cost", "Measure error and time of each knob's values. Sets shadows.reuse=off"),
+                   options, raw);
+  CLI::App* bench =
+      add(Command::bench, "bench", "Run benchmarks: papers' tables and CPU systems. Sets shadows.reuse=off");
   bench->add_option("NAME", options.names, "Benchmarks to run: the id NAME, or all ids that begin with NAME and a dot");
   bench->add_option("--scene", options.scene, kSceneText)->type_name("SCENE");
   bench->add_option("--json", options.json_file, "Write the rows as JSON")->type_name("FILE");

@@ -87,6 +87,7 @@ void write_final_lists(ComputePass& pass, FinalLists& lists) {
   lists.counters = pass.write("counters", lists.counters);
   lists.commands = pass.write("commands", lists.commands);
   lists.fallback_tiles = pass.write("fallback_tiles", lists.fallback_tiles);
+  lists.kept_tiles = pass.write("kept_tiles", lists.kept_tiles);
 }
 
 /// `constants`: of each pair. `shadows`: with the filter for close-up maps and the atlas, pyramid and block of the

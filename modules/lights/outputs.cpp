@@ -34,6 +34,13 @@ std::vector<DirectionalLook> directional_looks(const VisibleLights& visible) {
   return looks;
 }
 
+shaders::LocalLight local_light_reach(const VisibleLights& visible, std::size_t light) {
+  GLOAM_ASSERT(light < visible.block.local_count, "no such local light");
+  shaders::LocalLight reach = visible.block.local[light];
+  reach.color = vec3(glm::greaterThan(reach.color, vec3(0.0f)));
+  return reach;
+}
+
 double local_illuminance_at(const VisibleLights& visible, std::size_t light, const vec3& point, const vec3& normal) {
   GLOAM_ASSERT(light < visible.block.local_count, "no such local light");
   const shaders::LocalLight& l = visible.block.local[light];

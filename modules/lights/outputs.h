@@ -16,6 +16,7 @@
 #include "engine/render/frame_builder.h"
 #include "engine/render/knobs/knob_table.h"
 #include "modules/lights/components.h"
+#include "shaders/lights/lights_shared.h"
 
 namespace gloam {
 
@@ -112,6 +113,10 @@ struct DirectionalLook {
 };
 /// Indexed as LightBlock::directional.
 [[nodiscard]] std::vector<DirectionalLook> directional_looks(const VisibleLights& visible);
+
+/// What decides where a local light falls: equal for two lights that fall on the same points. Its colour channels are 1
+/// or 0: whether they emit. Camera-relative. light: indexed as LightBlock::local.
+[[nodiscard]] shaders::LocalLight local_light_reach(const VisibleLights& visible, std::size_t light);
 
 /// Illuminance in lux, the luminance of its linear RGB, that a light sheds on a camera-relative point of a surface, if
 /// nothing casts a shadow. normal: unit length. light: indexed as LightBlock::local, or LightBlock::directional.

@@ -11,7 +11,7 @@ void add_shadow_knobs(KnobRegistry& registry) {
             kShadowNearDirections, kShadowMips, kShadowMipOperator, kSquareShadowKernel, kShadowReceiverPlane,
             kShadowTerminator, kShadowDepth16, kOrientedShadowBias, kSubsurfaceBacks, kShadowBiasMm, kShadowBiasUnits,
             kVisibilityLevels, kShadowAtlas, kShadowTexelsPerPixel, kSimplifiedCasters, kShadowSlotLimit,
-            kShadowPairLimit, kShadowEarlyOuts);
+            kShadowPairLimit, kShadowReuse, kShadowEarlyOuts);
 }
 
 ShadowKnobs shadow_knobs(const KnobRegistry& registry) {
@@ -38,6 +38,7 @@ ShadowKnobs shadow_knobs(const KnobRegistry& registry) {
   knobs.near = registry.value(kShadowNear);
   knobs.near_directions = registry.value(kShadowNearDirections);
   knobs.thin_filter = registry.try_value(kGrassShadowFilter).value_or(0);
+  knobs.reuse = registry.value(kShadowReuse) == ShadowReuse::exact;
   knobs.early_outs = registry.value(kShadowEarlyOuts);
   knobs.deferred = registry.value(kShadowMode) == ShadowMode::deferred;
   knobs.classify = registry.value(kShadowClassify);

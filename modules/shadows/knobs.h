@@ -17,7 +17,7 @@ inline constexpr std::uint32_t kContactHardening = 3;
 inline constexpr std::uint32_t kTracedShadows = 4;
 inline constexpr std::uint32_t kNoShadows = 5;  ///< no shadows, cookies only
 
-// The knobs that other modules do not read; kShadowMode is in outputs.h.
+// The knobs that only this module reads; the others are in outputs.h.
 inline constexpr OnOffKnob kShadowClassify{
     .name = "shadows.classify",
     .meaning =
@@ -203,6 +203,7 @@ struct ShadowKnobs {
   bool subsurface_backs = false;  ///< closed bodies that light passes through are drawn without their lit side
   bool transmission = false;      ///< the scene has materials that light passes through
   std::uint32_t thin_filter = 0;  ///< value of kThinFilter (shadows_api.glsl)
+  bool reuse = true;              ///< visibilities of the last frame are kept where nothing has changed
   bool early_outs = true;         ///< a filter stops as soon as the result is known; false only for measurements
 };
 

@@ -24,6 +24,7 @@
 #include "modules/shadows/filter/cookies.h"
 #include "modules/shadows/final_lists/buffers.h"
 #include "modules/shadows/final_lists/generate.h"
+#include "modules/shadows/final_lists/reuse.h"
 #include "modules/shadows/keys.h"
 #include "modules/shadows/knobs.h"
 #include "modules/shadows/maps/draw_passes.h"
@@ -117,7 +118,7 @@ class ShadowsModule final : public Module {
     if (phase == PassPhase::shading) keep_list_counters(frame);
     if (phase != PassPhase::lists) return;
     warn(frame);
-    add_shadow_passes(frame, states_);
+    add_shadow_passes(frame, states_, reuse_);
     if (!frame.status().ok()) return;
     if (const LightsOutputs* lights = frame.find<LightsOutputs>())
       last_ = LastInputs{frame.get<ShadowsOutputs>(), *lights};
@@ -175,10 +176,14 @@ class ShadowsModule final : public Module {
     return view_faces != nullptr && view_faces->faces_waiting > 0;
   }
 
-  void release_view(ViewId view) override { states_.release_view(view); }
+  void release_view(ViewId view) override {
+    states_.release_view(view);
+    reuse_.release_view(view);
+  }
   void give_up_frame(std::uint64_t) override {}  // what the module notes about maps changes in commits only
   void release() override {
     states_.release();
+    reuse_.release();
     last_.reset();
   }
 
@@ -210,6 +215,7 @@ class ShadowsModule final : public Module {
   };
 
   ShadowStates states_;
+  ListReuse reuse_;
   std::optional<LastInputs> last_;
   OnceLog once_log_;
 };

@@ -57,6 +57,31 @@ inline constexpr EnumKnob<ShadowMode> kShadowMode{
         "(deferred)",
     .default_value = ShadowMode::deferred};
 
+/// What of the last frame's visibilities a frame keeps.
+enum class ShadowReuse : std::uint8_t {
+  off,
+  exact,  ///< those of tiles and lights of which nothing has changed
+};
+[[nodiscard]] constexpr std::string_view name_of(ShadowReuse reuse) {
+  switch (reuse) {
+    case ShadowReuse::off:
+      return "off";
+    case ShadowReuse::exact:
+      return "exact";
+  }
+  return {};
+}
+inline constexpr EnumKnob<ShadowReuse> kShadowReuse{
+    .name = "shadows.reuse",
+    .meaning =
+        "visibilities of the last frame that are kept: none, or those of pairs of a tile and a light of which nothing "
+        "has changed, neither pixels nor light nor casters (exact: the picture is the same to the bit); cost and bench "
+        "set off, so that what they measure at rest is what a moving camera pays",
+    .default_value = ShadowReuse::exact,
+    .exact = ShadowReuse::off,
+    .same_picture = true,
+    .only_with = "shadows.mode=deferred"};
+
 /// A knob of the grass module, which this module obeys. Values of kThinFilter (shadows_api.glsl).
 inline constexpr ChoiceKnob<std::uint32_t> kGrassShadowFilter{
     .name = "grass.shadow_filter",
@@ -140,6 +165,9 @@ struct FinalLists {
   BufferRef commands;               ///< one ShadowListCommands
   std::uint64_t fallback_draw = 0;  ///< byte offset of ShadowListCommands::fallback_draw in `commands`
   BufferRef counters;               ///< one ShadowListCounters
+  /// With kReuse of `constants`, a KeptTile per shadow tile: who changes a tile's list sets its local_first to
+  /// GLOAM_NO_FINAL_LIST there. Otherwise one that is not read.
+  BufferRef kept_tiles;
   BufferRef fallback_tiles;  ///< y << 16 | x per fallback tile; their number is ShadowListCommands::fallback_draw.y
   gpu::Binding::BufferRange grid;     ///< uniform buffer range that holds a FinalGrid
   bool always_complete = false;       ///< the buffers hold every light of every tile: there are no fallback tiles

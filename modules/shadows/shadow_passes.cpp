@@ -63,13 +63,14 @@ ShadowMaps add_maps(FrameBuilder& frame, ShadowStates& states, const ShadowKnobs
 }
 
 /// Adds the passes of final lists; with classification, the planes before them.
-std::optional<FinalLists> add_final_lists(FrameBuilder& frame, ShadowStates& states, const ShadowMaps& maps,
-                                          const ShadowKnobs& knobs, const ShadowsOutputs& outputs) {
+std::optional<FinalLists> add_final_lists(FrameBuilder& frame, ShadowStates& states, ListReuse& reuse,
+                                          const ShadowMaps& maps, const ShadowKnobs& knobs,
+                                          const ShadowsOutputs& outputs) {
   const ViewFaces& view_faces = frame.world().view_resource<ViewFaces>(frame.view().id);
   ViewMapState& kept = states.view(world_id(frame.world()), view_faces, frame.view().id);
   ImageRef planes;
   if (knobs.classify) planes = add_shadow_planes_pass(frame, kept, maps, view_faces, knobs);
-  return add_generate_passes(frame, knobs, planes, outputs);
+  return add_generate_passes(frame, knobs, planes, kept, outputs, reuse.view(world_id(frame.world()), frame.view().id));
 }
 
 }  // namespace
@@ -96,10 +97,11 @@ ShadowsOutputs with_knobs(const ShadowsOutputs& now, const KnobRegistry& registr
   return other;
 }
 
-void add_shadow_passes(FrameBuilder& frame, ShadowStates& states) {
+void add_shadow_passes(FrameBuilder& frame, ShadowStates& states, ListReuse& reuse) {
   const ViewFaces& view_faces = frame.world().view_resource<ViewFaces>(frame.view().id);
   const ShadowKnobs knobs = knobs_of(frame);
   states.begin(frame.services().device);
+  reuse.forget_unused(frame.services().device.frame_number());
   const ShadowUploads uploads = add_shadow_uploads(frame, states, view_faces, knobs);
   if (!frame.status().ok()) return;
 
@@ -128,7 +130,7 @@ void add_shadow_passes(FrameBuilder& frame, ShadowStates& states) {
   if (!frame.status().ok()) return;
   outputs.atlas = maps.atlas;
   outputs.pyramid = maps.pyramid;
-  if (has_lists) outputs.final_lists = add_final_lists(frame, states, maps, knobs, outputs);
+  if (has_lists) outputs.final_lists = add_final_lists(frame, states, reuse, maps, knobs, outputs);
   frame.put(std::move(outputs));
 }
 

@@ -6,6 +6,7 @@
 
 #include "modules/lighting/outputs.h"
 #include "modules/reflections/module.h"
+#include "modules/shadows/outputs.h"
 #include "sandbox/output/file_io.h"
 
 namespace gloam {
@@ -44,6 +45,8 @@ Status set_knobs(KnobRegistry& knobs, const Options& options) {
   // Pictures for users are antialiased. Measurements compare pictures as they were drawn.
   if (options.command == Command::play || options.command == Command::render)
     knobs.set(kAntialiasing, Antialiasing::smaa);
+  // What is measured at rest is what moving cameras pay.
+  if (options.command == Command::cost || options.command == Command::bench) knobs.set(kShadowReuse, ShadowReuse::off);
   if (options.command == Command::play) {
     knobs.set(kHeatRange, kFitHeatRange);
     // Pictures of render do not depend on the frames before them; a window follows its lamps.

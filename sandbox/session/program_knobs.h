@@ -61,8 +61,9 @@ void add_program_knobs(KnobRegistry& knobs);
 /// The knobs of these modules and of the program, with their defaults.
 [[nodiscard]] KnobRegistry all_knobs(const ModuleList& modules);
 
-/// Sets knobs from --config, then from --set. Before, `play` and `render` turn antialiasing on, and `play` fits the
-/// colour scales of views. Usage error for an unknown knob or value.
+/// Sets knobs from --config, then from --set. Before, `play` and `render` turn antialiasing on, `play` fits the
+/// colour scales of views, and `cost` and `bench` turn the reuse of shadows off. Usage error for an unknown knob or
+/// value.
 [[nodiscard]] Status set_knobs(KnobRegistry& knobs, const Options& options);
 
 }  // namespace gloam

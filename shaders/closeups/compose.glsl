@@ -27,6 +27,9 @@ layout(set = 0, binding = 11, scalar) buffer Counters { ShadowListCounters count
 layout(set = 0, binding = 18, scalar) buffer Commands { ShadowListCommands commands; };
 layout(set = 0, binding = 20) uniform sampler2D depth_bounds;
 layout(set = 0, binding = 19, scalar) writeonly buffer FallbackTiles { uint fallback_tiles[]; };
+layout(set = 0, binding = 23, scalar) writeonly buffer KeptTiles { KeptTile kept_tiles[]; };
+
+layout(constant_id = 33) const uint kReuse = 0u;  // 1: there are kept tiles
 
 #include "shaders/shadows/slots_api.glsl"
 
@@ -178,6 +181,9 @@ void main() {
   barrier();
   if (lane == 0u) {
     slot = changed_slot(tile, found);
+    // The next frame must not keep what is composed here.
+    if (kReuse != 0u && (found & kSomeChanged) != 0u)
+      kept_tiles[tile.y * final_grid.tiles.x + tile.x].local_first = GLOAM_NO_FINAL_LIST;
     if (slot != GLOAM_NO_ROOM) entries[place] = closeup.light | slot << 10;
   }
   barrier();

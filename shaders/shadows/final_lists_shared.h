@@ -39,7 +39,9 @@
 #define GLOAM_CANDIDATES_DIRECTIONAL 2
 #define GLOAM_CANDIDATES_TWO_GROUPS 1  // is added
 #define GLOAM_CANDIDATE_KINDS 4
-#define GLOAM_CANDIDATE_GROUP 64  // candidates of a workgroup
+#define GLOAM_CANDIDATE_GROUP 64         // candidates of a workgroup
+#define GLOAM_LIGHT_CHANGED 0xFFFFFFFFu  // in place of a light's index in the frame before
+#define GLOAM_MOST_KEPT_LIGHTS 128u      // of a kind; tiles with more keep none
 
 GLOAM_SHARED_BEGIN
 
@@ -54,6 +56,16 @@ struct FinalGrid {
   uint slot_capacity;
   uint classify;        // 0: no classification; every casting light is evaluated at every pixel
   uint reserved_slots;  // the first slots, which only reserved tiles take (slots_api.glsl); 0: no tile is reserved
+};
+
+/// What a shadow tile leaves for the next frame, if that reuses visibilities. Firsts and counts are those of its final
+/// list before later passes add to it, in the entries of the frame that wrote them.
+struct KeptTile {
+  uvec4 key;               // tile_key() of its pixels; 0: it shows only sky
+  uint directional_first;  // GLOAM_NO_FINAL_LIST: the tile has nothing to reuse
+  uint local_first;
+  uint counts;  // as z of the tile's texel
+  uint reserved;
 };
 
 /// Arguments of indirect commands, written by the GPU.
@@ -97,6 +109,7 @@ struct ShadowListCounters {
   uint fallback_tiles;   // fallback tiles
   uint reserved_slots;   // of `slots`: those of reserved tiles, in frames with reserved slots
   uint other_slots;      // of `slots`: those of other tiles, in frames with reserved slots
+  uint kept;             // tile lights whose visibilities are those of the frame before
 };
 
 GLOAM_SHARED_END

@@ -135,6 +135,11 @@ void ShadowCache::keep(const FaceKey& face, const FaceContent& content, std::uin
   found->second.late = std::move(late);
 }
 
+std::uint64_t ShadowCache::version(const FaceKey& face) const {
+  const auto found = maps_.find(face);
+  return found == maps_.end() ? 0 : found->second.version;
+}
+
 std::span<const CasterBox> ShadowCache::late(const ShadowFace& face) const {
   const auto found = maps_.find(key_of(face));
   if (found == maps_.end()) return {};
@@ -155,7 +160,8 @@ void ShadowCache::set_drawn(const ShadowFace& face, const FaceContent& content, 
   const FaceKey key = key_of(face);
   if (const auto before = maps_.find(key); before != maps_.end()) places_.erase(place_of(before->second.square));
   forget_overlapping(face.square);
-  maps_.insert_or_assign(key, Map{face.square, content, frame, {}});
+  Map& map = maps_.insert_or_assign(key, Map{face.square, content, frame, {}}).first->second;
+  map.version = ++drawings_;
   const std::uint64_t place = place_of(face.square);
   places_[place] = {place + std::uint64_t{face.square.size} * face.square.size, key};
 }

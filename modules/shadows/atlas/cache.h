@@ -54,6 +54,8 @@ class ShadowCache {
   /// Records that the face's map is right for that frame as well, and its content. late: boxes inside which it is out
   /// of date and waits for its turn. Without effect if the map has been forgotten.
   void keep(const FaceKey& face, const FaceContent& content, std::uint64_t frame, std::vector<CasterBox> late = {});
+  /// Number of the drawing that made the face's map as it is, in the whole atlas or in a part; 0: there is none.
+  [[nodiscard]] std::uint64_t version(const FaceKey& face) const;
   /// Boxes inside which the face's map has waited for its turn since it was drawn.
   [[nodiscard]] std::span<const CasterBox> late(const ShadowFace& face) const;
   /// The face's backgrounds; empty when the atlas does not hold its map.
@@ -81,6 +83,7 @@ class ShadowCache {
     std::vector<FaceBackground> backgrounds;
     std::vector<CasterBox> late = {};
     bool has_planes = false;
+    std::uint64_t version = 0;
   };
   void forget_overlapping(const AtlasSquare& square);
 
@@ -92,6 +95,7 @@ class ShadowCache {
     FaceKey key;
   };
   std::map<std::uint64_t, Stretch> places_;
+  std::uint64_t drawings_ = 0;  ///< calls of set_drawn() so far
 };
 
 }  // namespace gloam

@@ -84,6 +84,8 @@ std::string idle_shadow_knob(const World& world, std::string_view knob, const Fr
   const auto all = counters.find("shadows.tile_lights"), filtered = counters.find("shadows.tile_lights_filtered");
   if (all == counters.end() || filtered == counters.end()) return {};
   if (all->second <= 0.0) return "no surface in view is in reach of a light that casts shadows";
+  const auto kept = counters.find("shadows.tile_lights_kept");
+  if (kept != counters.end() && kept->second > 0.0) return {};  // what they were made by does not show
   return filtered->second > 0.0 ? "" : "each light lights all of a tile in view or nothing of it";
 }
 

@@ -61,22 +61,38 @@ void add_reserved(const ReservedTiles& reserved, std::uint64_t pair_bound, const
   c.slots = at_most(std::uint64_t{reserved.slots} + c.slots, std::min(kMostSlots, knobs.slot_limit));
 }
 
-gpu::SpecConstants list_constants(std::uint32_t visibility_bits, bool split) {
+gpu::SpecConstants list_constants(std::uint32_t visibility_bits, bool split, bool reuse) {
   gpu::SpecConstants constants;
+  constants.set_if_present("kReuse", reuse ? 1u : 0u);
   constants.set_if_present("kVisibilityBits", visibility_bits);
   constants.set_if_present("kVisibilityBuffers", split ? 2u : 1u);
   return constants;
 }
 
-void create_visibilities(FrameGraph& graph, FinalLists& lists) {
+/// Creates entries and visibilities. reuse: null if no frame keeps them.
+void create_lists(FrameBuilder& frame, const KeptSizes& sizes, const ViewReuse* reuse, FinalLists& lists) {
+  FrameGraph& graph = frame.graph();
+  const bool split = sizes.visibilities[1] != 0;
+  lists.constants = list_constants(lists.visibility_bits, split, reuse != nullptr);
+  if (reuse != nullptr) {
+    const KeptBuffers kept = use_kept_buffers(frame, sizes, 1 - reuse->instance);
+    lists.kept_tiles = kept.tiles;
+    lists.entries = kept.entries;
+    std::ranges::copy(kept.visibilities, lists.visibilities);
+    return;
+  }
+  lists.kept_tiles = create(graph, "shadow_kept_tiles", sizeof(shaders::KeptTile));
+  lists.entries = create(graph, "final_light_entries", sizes.entries);
+  lists.visibilities[0] = lists.visibilities[1] = create(graph, "shadow_visibilities", sizes.visibilities[0]);
+  if (split) lists.visibilities[1] = create(graph, "more_shadow_visibilities", sizes.visibilities[1]);
+}
+
+KeptSizes sizes_of(const FinalLists& lists, std::uint64_t entries, std::uint64_t tiles) {
   const std::uint32_t bits = lists.visibility_bits, first = std::min(lists.slot_capacity, slots_per_buffer(bits));
-  const bool split = lists.slot_capacity > first;
-  lists.visibilities[0] = create(graph, "shadow_visibilities", std::uint64_t{first} * slot_bytes(bits));
-  lists.visibilities[1] = lists.visibilities[0];
-  if (split)
-    lists.visibilities[1] =
-        create(graph, "more_shadow_visibilities", std::uint64_t{lists.slot_capacity - first} * slot_bytes(bits));
-  lists.constants = list_constants(bits, split);
+  return {.tiles = tiles * sizeof(shaders::KeptTile),
+          .entries = entries * sizeof(std::uint32_t),
+          .visibilities = {std::uint64_t{first} * slot_bytes(bits),
+                           std::uint64_t{lists.slot_capacity - first} * slot_bytes(bits)}};
 }
 
 }  // namespace
@@ -84,7 +100,7 @@ void create_visibilities(FrameGraph& graph, FinalLists& lists) {
 void set_list_constants(const ShadowKnobs& knobs, FinalLists& lists) {
   const bool split = lists.visibilities[1].resource != lists.visibilities[0].resource;
   lists.visibility_bits = visibility_bits_of(knobs);
-  lists.constants = list_constants(lists.visibility_bits, split);
+  lists.constants = list_constants(lists.visibility_bits, split, knobs.reuse);
   const ShadowKnobs unlimited;
   if (knobs.slot_limit != unlimited.slot_limit || knobs.pair_limit != unlimited.pair_limit)
     lists.always_complete = false;
@@ -99,7 +115,8 @@ std::uint32_t kept_capacity(std::uint32_t there, std::uint32_t asked, std::uint3
 FinalListFeedback final_list_feedback(const shaders::ShadowListCounters& counters, const FinalListNote& note,
                                       const FinalListFeedback* last) {
   FinalListFeedback feedback;
-  feedback.pairs_asked = counters.pairs;
+  // Tile lights that were kept need pairs again as soon as they change.
+  feedback.pairs_asked = std::max(counters.pairs, last == nullptr || counters.kept == 0 ? 0 : last->pairs_asked);
   // Pairs that did not fit took no slots: assume that they need as many slots per pair as the pairs that fit.
   const bool pairs_full = counters.pairs > note.pair_capacity;
   const std::uint64_t share =
@@ -148,6 +165,7 @@ void count_final_lists(const shaders::ShadowListCounters& c, const FinalListNote
   sink.count("shadows.tile_lights_unshadowed", c.unshadowed);
   sink.count("shadows.tile_lights_lit", c.lit_at_once);
   sink.count("shadows.tile_lights_unlit", c.unlit_at_once);
+  sink.count("shadows.tile_lights_kept", c.kept);
   sink.count("shadows.tile_lights_filtered", c.pairs);
   sink.count("shadows.tile_lights_filtered_lit", c.lit_by_filter);
   sink.count("shadows.tile_lights_filtered_unlit", c.unlit_by_filter);
@@ -195,7 +213,7 @@ std::optional<ReservedTiles> reserve_tiles(const FrameBuilder& frame, std::vecto
 }
 
 FinalListBuffers make_final_list_buffers(FrameBuilder& frame, const ShadowKnobs& knobs,
-                                         std::span<const shaders::ShadowRow> rows) {
+                                         std::span<const shaders::ShadowRow> rows, const ViewReuse* reuse) {
   FrameGraph& graph = frame.graph();
   const LightsOutputs& lights = *frame.find<LightsOutputs>();
   const uvec2 tiles = (uvec2(frame.view().width, frame.view().height) + uvec2(kShadowTile - 1)) / uvec2(kShadowTile);
@@ -239,7 +257,6 @@ FinalListBuffers make_final_list_buffers(FrameBuilder& frame, const ShadowKnobs&
   image.height = tiles.y;
   lists.tiles = graph.create_image(image);
   constexpr std::uint64_t kWord = sizeof(std::uint32_t);
-  lists.entries = create(graph, "final_light_entries", kWord * grid.entry_capacity);
   const std::uint64_t directional = std::uint64_t{tile_count} * lights.directional_count;
   const std::uint64_t pairs = c.pairs + std::min<std::uint64_t>(c.pairs, directional);
   const std::uint64_t candidates =
@@ -253,7 +270,8 @@ FinalListBuffers make_final_list_buffers(FrameBuilder& frame, const ShadowKnobs&
   lists.commands = create(graph, "shadow_list_commands", sizeof(shaders::ShadowListCommands));
   lists.counters = create(graph, "shadow_list_counters", sizeof(shaders::ShadowListCounters));
   lists.fallback_draw = offsetof(shaders::ShadowListCommands, fallback_draw);
-  create_visibilities(graph, lists);
+  made.sizes = sizes_of(lists, grid.entry_capacity, tile_count);
+  create_lists(frame, made.sizes, reuse, lists);
   made.note = {tile_count,
                c.slots,
                c.pairs,

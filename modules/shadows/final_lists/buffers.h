@@ -7,6 +7,7 @@
 
 #include "engine/render/frame_builder.h"
 #include "engine/render/module.h"
+#include "modules/shadows/final_lists/reuse.h"
 #include "modules/shadows/knobs.h"
 #include "modules/shadows/outputs.h"
 #include "shaders/shadows/final_lists_shared.h"
@@ -82,6 +83,7 @@ struct FinalListBuffers {
   BufferRef candidate_commands;                     ///< one ShadowCandidateCommands
   BufferRef tile_groups;                            ///< two ShadowTileGroup per shadow tile
   std::vector<std::uint32_t> reserved_tiles = {0};  ///< ReservedTiles::tiles, or one word if no tile is reserved
+  KeptSizes sizes;                                  ///< of lists.kept_tiles, entries and visibilities
   FinalListNote note;
 };
 /// Bits of a visibility in a slot: 4 or 8.
@@ -91,9 +93,10 @@ struct FinalListBuffers {
 void set_list_constants(const ShadowKnobs& knobs, FinalLists& lists);
 
 /// Creates the view's images and buffers, with final_list_capacities() for the lights that cast by the CPU's tile
-/// masks. LightsOutputs must be on the board. rows: one per local light. If there is no memory for the grid, the frame
-/// is given up.
+/// masks. LightsOutputs must be on the board. rows: one per local light. reuse: of the view; null if no frame keeps
+/// visibilities. If there is no memory, the frame is given up.
 [[nodiscard]] FinalListBuffers make_final_list_buffers(FrameBuilder& frame, const ShadowKnobs& knobs,
-                                                       std::span<const shaders::ShadowRow> rows);
+                                                       std::span<const shaders::ShadowRow> rows,
+                                                       const ViewReuse* reuse);
 
 }  // namespace gloam

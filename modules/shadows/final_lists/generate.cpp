@@ -15,8 +15,16 @@
 namespace gloam {
 namespace {
 
-ComputeProgram list_program(const ShadowsOutputs& shadows) {
-  return {shaders::shadows::list_tile_lights_comp, shadows.constants};
+/// reuse: the frame keeps visibilities of the last one.
+ComputeProgram list_program(const ShadowsOutputs& shadows, std::uint32_t visibility_bits, bool reuse) {
+  if (!reuse) return {shaders::shadows::list_tile_lights_comp, shadows.constants};
+  ComputeProgram program{shaders::shadows::list_tile_lights_kept_comp, shadows.constants};
+  program.constants.set("kVisibilityBits", visibility_bits);
+  return program;
+}
+
+ComputeProgram finish_program(bool reuse) {
+  return {reuse ? shaders::shadows::finish_kept_comp : shaders::shadows::finish_comp};
 }
 
 ComputeProgram classify_program(const ShadowsOutputs& shadows, bool directional) {
@@ -78,9 +86,29 @@ void add_start_pass(FrameBuilder& frame, FinalListBuffers& buffers) {
   });
 }
 
-void add_list_pass(FrameBuilder& frame, const ShadowsOutputs& shadows, FinalListBuffers& buffers) {
+/// What the frame keeps of the last one.
+struct Kept {
+  bool keys = false;                        ///< tiles get keys; else the other members are empty
+  KeptBuffers last;                         ///< of the last frame
+  std::vector<std::uint32_t> last_indices;  ///< last_indices()
+};
+
+/// Binds what list_tile_lights_kept.comp.glsl has more than list_tile_lights.comp.glsl.
+void bind_kept(ComputePass& pass, const Kept& kept, FinalListBuffers& buffers) {
+  pass.read("last_tiles", kept.last.tiles);
+  pass.read("last_entries", kept.last.entries);
+  pass.read("last_visibilities_0", kept.last.visibilities[0]);
+  pass.read("last_visibilities_1", kept.last.visibilities[1]);
+  pass.items<std::uint32_t>("last_indices", kept.last_indices);
+  pass.items<std::uint32_t>("reserved_tiles", buffers.reserved_tiles);
+  buffers.lists.kept_tiles = pass.write("kept_tiles", buffers.lists.kept_tiles);
+  write_visibilities(pass, buffers.lists);
+}
+
+void add_list_pass(FrameBuilder& frame, const ShadowsOutputs& shadows, const Kept& kept, FinalListBuffers& buffers) {
   FinalLists& lists = buffers.lists;
-  ComputePass pass(frame, "list_tile_lights", list_program(shadows));
+  ComputePass pass(frame, "list_tile_lights", list_program(shadows, lists.visibility_bits, kept.keys));
+  if (kept.keys) bind_kept(pass, kept, buffers);
   read_geometry(pass, frame.get<GeometryOutputs>());
   read_light_lists(pass, frame.get<LightsOutputs>());
   read_shadows(pass, shadows);
@@ -151,8 +179,9 @@ void add_pairs_pass(FrameBuilder& frame, const ShadowsOutputs& shadows, FinalLis
   }
 }
 
-void add_finish_pass(FrameBuilder& frame, FinalLists& lists) {
-  ComputePass pass(frame, "finish_lists", shaders::shadows::finish_comp);
+void add_finish_pass(FrameBuilder& frame, bool keys, FinalLists& lists) {
+  ComputePass pass(frame, "finish_lists", finish_program(keys));
+  if (keys) lists.kept_tiles = pass.write("kept_tiles", lists.kept_tiles);
   pass.read("final_grid", lists.grid);
   lists.tiles = pass.write("final_tiles", lists.tiles);
   lists.entries = pass.write("entries", lists.entries);
@@ -161,6 +190,29 @@ void add_finish_pass(FrameBuilder& frame, FinalLists& lists) {
   lists.commands = pass.write("commands", lists.commands);
   const gpu::ImageDesc& tiles = frame.graph().desc(lists.tiles);
   pass.dispatch_over(tiles.width, tiles.height);
+}
+
+/// Appends the pipelines of frames that make keys.
+void list_reuse_pipelines(std::uint32_t visibility_bits, const ShadowsOutputs& shadows, PipelineList& list) {
+  list.push_back(pipeline_desc(list_program(shadows, visibility_bits, true), "shadows"));
+  list.push_back(pipeline_desc(finish_program(true), "shadows"));
+}
+
+/// Decides what the frame keeps of the last one: nothing, if what all tiles share has changed.
+Kept plan_kept(FrameBuilder& frame, const ShadowsOutputs& shadows, const FinalListBuffers& buffers,
+               const ListInputs& inputs, const ViewReuse& reuse) {
+  Kept kept;
+  if (inputs.shared != reuse.inputs.shared) return kept;
+  const FrameServices& services = frame.services();
+  PipelineList list;
+  list_reuse_pipelines(buffers.lists.visibility_bits, shadows, list);
+  if (!services.wait_for_pipelines && !services.pipelines.request(list, services.log)) return kept;
+  kept.last = use_kept_buffers(frame, buffers.sizes, reuse.instance);
+  if (!frame.status().ok()) return kept;
+  kept.keys = true;
+  const bool known = reuse.has_keys && kept.last.filled;
+  kept.last_indices = last_indices(known ? reuse.inputs : ListInputs{}, inputs);
+  return kept;
 }
 
 }  // namespace
@@ -173,32 +225,43 @@ bool can_generate(const FrameBuilder& frame, const ShadowKnobs& knobs) {
 void list_generate_pipelines(const ShadowKnobs& knobs, const ShadowsOutputs& shadows, const LightsOutputs& lights,
                              const gpu::DeviceInfo& device, PipelineList& list) {
   const auto add = [&](const ComputeProgram& program) { list.push_back(pipeline_desc(program, "shadows")); };
-  add(list_program(shadows));
+  const std::uint32_t bits = visibility_bits_of(knobs);
+  add(list_program(shadows, bits, false));
   for (const bool directional : {false, true})
     if (has_lights(lights, directional)) add(classify_program(shadows, directional));
-  add({shaders::shadows::finish_comp});
-  for (const std::uint32_t kind : kinds_of(lights))
-    add(generate_program(shadows, visibility_bits_of(knobs), kind, device));
+  add(finish_program(false));
+  for (const std::uint32_t kind : kinds_of(lights)) add(generate_program(shadows, bits, kind, device));
   if (knobs.classify) list_shadow_plane_pipelines(list);
+  if (knobs.reuse) list_reuse_pipelines(bits, shadows, list);
 }
 
 bool generate_pipelines_ready(const FrameBuilder& frame, const ShadowKnobs& knobs, const ShadowsOutputs& shadows) {
   const FrameServices& services = frame.services();
   if (services.wait_for_pipelines) return true;
   PipelineList list;
-  list_generate_pipelines(knobs, shadows, *frame.find<LightsOutputs>(), services.device.info(), list);
+  ShadowKnobs without_reuse = knobs;
+  without_reuse.reuse = false;
+  list_generate_pipelines(without_reuse, shadows, *frame.find<LightsOutputs>(), services.device.info(), list);
   return services.pipelines.request(list, services.log);
 }
 
 std::optional<FinalLists> add_generate_passes(FrameBuilder& frame, const ShadowKnobs& knobs, ImageRef planes,
-                                              const ShadowsOutputs& shadows) {
-  FinalListBuffers buffers = make_final_list_buffers(frame, knobs, *shadows.row_values);
+                                              const ViewMapState& maps, const ShadowsOutputs& shadows,
+                                              ViewReuse& reuse) {
+  FinalListBuffers buffers = make_final_list_buffers(frame, knobs, *shadows.row_values, knobs.reuse ? &reuse : nullptr);
+  if (!frame.status().ok()) return std::nullopt;
+  Kept kept;
+  if (knobs.reuse) {
+    ListInputs inputs = list_inputs(frame, knobs, shadows, maps, buffers.sizes);
+    kept = plan_kept(frame, shadows, buffers, inputs, reuse);
+    note_reuse(frame, maps, kept.keys, std::move(inputs), reuse);
+  }
   add_start_pass(frame, buffers);
-  add_list_pass(frame, shadows, buffers);
+  add_list_pass(frame, shadows, kept, buffers);
   add_classify_pass(frame, shadows, planes, buffers);
   if (!frame.status().ok()) return std::nullopt;  // nothing has written the pairs that the next pass reads
   add_pairs_pass(frame, shadows, buffers);
-  add_finish_pass(frame, buffers.lists);
+  add_finish_pass(frame, kept.keys, buffers.lists);
   frame.put(buffers.note);
   return std::move(buffers.lists);
 }

@@ -6,6 +6,8 @@
 
 #include "engine/render/frame_builder.h"
 #include "modules/lights/outputs.h"
+#include "modules/shadows/atlas/view_map_state.h"
+#include "modules/shadows/final_lists/reuse.h"
 #include "modules/shadows/knobs.h"
 #include "modules/shadows/outputs.h"
 
@@ -25,8 +27,10 @@ void list_generate_pipelines(const ShadowKnobs& knobs, const ShadowsOutputs& sha
 
 /// Makes final lists from early lists: passes shadow_list_start, list_tile_lights, classify_shadows, generate_shadows,
 /// finish_lists. Puts a FinalListNote on the board. planes: from add_shadow_planes_pass(), or null when tiles are not
-/// classified. shadows: without final_lists. None if the frame was given up.
+/// classified. maps: the state of the view's maps, whose passes are declared. shadows: without final_lists. reuse: of
+/// the view. None if the frame was given up.
 [[nodiscard]] std::optional<FinalLists> add_generate_passes(FrameBuilder& frame, const ShadowKnobs& knobs,
-                                                            ImageRef planes, const ShadowsOutputs& shadows);
+                                                            ImageRef planes, const ViewMapState& maps,
+                                                            const ShadowsOutputs& shadows, ViewReuse& reuse);
 
 }  // namespace gloam

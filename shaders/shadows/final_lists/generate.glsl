@@ -30,7 +30,7 @@ layout(set = 0, binding = 18, scalar) readonly buffer Commands { ShadowListComma
 // Bit i % 32 of word i / 32: tile i is reserved. One word if no tile is.
 layout(set = 0, binding = 19, scalar) readonly buffer ReservedTiles { uint reserved_tiles[]; };
 
-#include "shaders/shadows/slots_api.glsl"
+#include "shaders/shadows/final_lists/reserved_tiles.glsl"
 
 #if GLOAM_SHADOWS_KINDS == 4
 const uint kPairKind = uint(GLOAM_PAIRS_DIRECTIONAL);
@@ -78,14 +78,9 @@ uint keep_visibility(uint pixel, PixelOfPair p, float visibility, out uint steps
 
 #include "shaders/shadows/pair_pixels_asked_api.glsl"
 
-bool is_reserved(uint tile_index) {
-  bool any_is = final_grid.reserved_slots != 0u;
-  return any_is && (reserved_tiles[any_is ? tile_index >> 5 : 0u] >> (tile_index & 31u) & 1u) != 0u;
-}
-
 // Takes the final slot of the pair's entry and counts the result. some: combined flags of all pixels.
 uint take_slot(uint some, uint tile_index) {
-  if (some == (kSomeSeeLess | kSomeSeeAny)) return take_free_slot(is_reserved(tile_index));
+  if (some == (kSomeSeeLess | kSomeSeeAny)) return take_free_slot_of(tile_index);
   // If no flag is set, the light illuminates no pixel of the tile: unlit.
   bool lit = some == kSomeSeeAny;
   if (lit)

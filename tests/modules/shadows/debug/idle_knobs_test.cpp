@@ -94,6 +94,9 @@ TEST_F(IdleShadowKnobs, counters_of_tiles_tell_whether_anything_is_filtered) {
   EXPECT_EQ(reason("shadows.kernel", counted(4, 0)), "each light lights all of a tile in view or nothing of it");
   EXPECT_EQ(reason("shadows.kernel", counted(0, 0)), "no surface in view is in reach of a light that casts shadows");
   EXPECT_EQ(reason("shadows.kernel"), "");
+  FrameCounters kept = counted(4, 0);
+  kept["shadows.tile_lights_kept"] = 3;
+  EXPECT_EQ(reason("shadows.kernel", kept), "") << "they may have been filtered";
 }
 
 TEST_F(IdleShadowKnobs, without_a_translucent_material_bodies_do_not_matter) {

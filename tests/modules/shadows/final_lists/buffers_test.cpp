@@ -86,6 +86,17 @@ TEST(FinalListFeedback, grows_slots_for_pairs_that_found_no_room_as_well) {
   EXPECT_GE(feedback.slot_capacity, 600u);
 }
 
+TEST(FinalListFeedback, of_a_frame_that_kept_visibilities_remembers_what_they_need_when_they_change) {
+  const FinalListNote note{.tiles = 10, .slot_capacity = 1000, .pair_capacity = 1000};
+  const FinalListFeedback moving = final_list_feedback(counters_of(800, 150), note, nullptr);
+  shaders::ShadowListCounters counters = counters_of(3, 150);
+  counters.kept = 797;
+  const FinalListFeedback resting = final_list_feedback(counters, note, &moving);
+  EXPECT_EQ(resting.pairs_asked, 800u);
+  EXPECT_EQ(resting.pair_capacity, moving.pair_capacity);
+  EXPECT_EQ(final_list_feedback(counters_of(3, 150), note, &resting).pairs_asked, 3u);
+}
+
 TEST(FinalListFeedback, of_no_room_at_all_is_a_number) {
   const FinalListNote note{.tiles = 10, .slot_capacity = 0, .pair_capacity = 0};
   const FinalListFeedback feedback = final_list_feedback(counters_of(5000, 0), note, nullptr);

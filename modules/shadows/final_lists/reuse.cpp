@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/shadows/final_lists/reuse.h"
+
+#include <algorithm>
+#include <unordered_map>
+#include <utility>
+
+#include "engine/core/hash.h"
+#include "engine/render/camera/view_constants.h"
+#include "modules/lights/outputs.h"
+#include "modules/shadows/filter/cookies.h"
+#include "shaders/shadows/final_lists_shared.h"
+
+namespace gloam {
+namespace {
+
+constexpr std::uint64_t kFramesKept = 120;
+
+/// Hash of all that visibilities depend on but the pixels and the lights.
+std::uint64_t shared_hash(const FrameBuilder& frame, const ShadowKnobs& knobs, const ShadowsOutputs& shadows,
+                          const KeptSizes& sizes) {
+  shaders::ViewConstants view = view_constants(frame.view());
+  view.frame = view.visualizer = 0;
+  view.normal_variance = view.light_scale = 0.0f;
+  const ViewFaces& faces = frame.world().view_resource<ViewFaces>(frame.view().id);
+  Hasher hasher;
+  hasher.bytes_of(view).bytes_of(sizes);
+  hasher.value(faces.owner.value).value(faces.shared != nullptr);  // they name the atlas
+  for (const gpu::SpecConstant& constant : shadows.constants)
+    hasher.text(constant.name).value(constant.value.type).value(constant.value.bits);
+  hasher.value(knobs.classify).value(knobs.slot_limit).value(knobs.pair_limit);
+  const shaders::ShadowBlock& block = shadows.block_values;
+  hasher.bytes_of(vec4(block.atlas_size, block.bias_m, block.depth_quantum, block.relative_quantum));
+  hasher.value(frame.world().resource<Cookies>().version);
+  return hasher.digest();
+}
+
+using MapVersions = std::unordered_map<Entity, std::uint64_t>;
+
+/// Versions of the maps of each light. drawn: faces that have a version which no other frame has.
+MapVersions map_versions(std::span<const FaceKey> faces, const ViewMapState& maps, std::span<const FaceKey> drawn,
+                         std::uint64_t frame) {
+  std::unordered_map<Entity, Hasher> hashers;
+  for (const FaceKey& face : faces) {
+    const bool changes = std::ranges::find(drawn, face) != drawn.end();
+    hashers[face.light].value(face.index).value(changes).value(changes ? frame : maps.cache.version(face));
+  }
+  MapVersions versions;
+  for (const auto& [light, hasher] : hashers) versions[light] = hasher.digest();
+  return versions;
+}
+
+std::vector<FaceKey> keys_of(const FrameBuilder& frame) {
+  std::vector<FaceKey> keys;
+  for (const ShadowFace& face : frame.world().view_resource<ViewFaces>(frame.view().id).faces)
+    keys.push_back({face.light, face.index, face.view});
+  return keys;
+}
+
+void set_map_versions(const MapVersions& versions, std::vector<LightInputs>& lights) {
+  for (LightInputs& light : lights) {
+    const auto found = versions.find(light.light);
+    light.maps = found == versions.end() ? 0 : found->second;
+  }
+}
+
+void add_indices(std::span<const LightInputs> last, std::span<const LightInputs> now,
+                 std::span<std::uint32_t> indices) {
+  std::unordered_map<Entity, std::uint32_t> places;
+  for (std::uint32_t i = 0; i < last.size(); ++i) places.emplace(last[i].light, i);
+  for (std::size_t i = 0; i < std::min(now.size(), indices.size()); ++i) {
+    const auto found = places.find(now[i].light);
+    if (found == places.end()) continue;
+    const LightInputs& before = last[found->second];
+    if (before.hash == now[i].hash && before.maps == now[i].maps) indices[i] = found->second;
+  }
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> last_indices(const ListInputs& last, const ListInputs& now) {
+  std::vector<std::uint32_t> indices(GLOAM_MAX_LOCAL_LIGHTS + GLOAM_MAX_DIRECTIONAL_LIGHTS, GLOAM_LIGHT_CHANGED);
+  if (last.shared != now.shared) return indices;
+  const std::span all(indices);
+  add_indices(last.local, now.local, all.first(GLOAM_MAX_LOCAL_LIGHTS));
+  add_indices(last.directional, now.directional, all.subspan(GLOAM_MAX_LOCAL_LIGHTS));
+  return indices;
+}
+
+void ListReuse::forget_unused(std::uint64_t frame) {
+  std::erase_if(views_, [&](const auto& entry) { return entry.second.frame + kFramesKept < frame; });
+}
+
+void ListReuse::release_view(ViewId view) {
+  std::erase_if(views_, [&](const auto& entry) { return entry.first.second == view.value; });
+}
+
+KeptBuffers use_kept_buffers(FrameBuilder& frame, const KeptSizes& sizes, std::uint64_t instance) {
+  KeptBuffers buffers;
+  buffers.filled = true;
+  const auto use = [&](const char* name, std::uint64_t bytes) -> BufferRef {
+    gpu::BufferDesc desc;
+    desc.name = name;
+    desc.module = "shadows";
+    desc.size = std::max<std::uint64_t>(bytes, 4);
+    desc.usage = gpu::BufferUsage::storage | gpu::BufferUsage::transfer_source;
+    const auto kept = frame.history_buffer(desc, {.scope = HistoryScope::view,
+                                                  .final_access = gpu::Access::compute_read,
+                                                  .reset = {.most_missed = 0},
+                                                  .instance = instance});
+    if (!frame.check(kept)) return {};
+    buffers.filled = buffers.filled && kept->filled();
+    return kept->buffer;
+  };
+  buffers.tiles = use("shadow_kept_tiles", sizes.tiles);
+  buffers.entries = use("final_light_entries", sizes.entries);
+  buffers.visibilities[0] = buffers.visibilities[1] = use("shadow_visibilities", sizes.visibilities[0]);
+  if (sizes.visibilities[1] != 0) buffers.visibilities[1] = use("more_shadow_visibilities", sizes.visibilities[1]);
+  return buffers;
+}
+
+ListInputs list_inputs(const FrameBuilder& frame, const ShadowKnobs& knobs, const ShadowsOutputs& shadows,
+                       const ViewMapState& maps, const KeptSizes& sizes) {
+  const auto& visible = frame.world().view_resource<VisibleLights>(frame.view().id);
+  ListInputs inputs;
+  inputs.shared = shared_hash(frame, knobs, shadows, sizes);
+  const std::span<const Entity> local = local_lights(visible), directional = directional_lights(visible);
+  for (std::size_t i = 0; i < local.size(); ++i) {
+    Hasher hasher;
+    hasher.bytes_of(local_light_reach(visible, i)).bytes_of((*shadows.row_values)[i]);
+    inputs.local.push_back({local[i], hasher.digest(), 0});
+  }
+  const std::vector<DirectionalLook> looks = directional_looks(visible);
+  for (std::size_t i = 0; i < directional.size(); ++i) {
+    Hasher hasher;
+    hasher.bytes_of(vec4(looks[i].direction, looks[i].brightest > 0.0f ? 1.0f : 0.0f));
+    hasher.bytes_of(shadows.block_values.directional[i]);
+    inputs.directional.push_back({directional[i], hasher.digest(), 0});
+  }
+  const auto versions = map_versions(keys_of(frame), maps, maps.frame.drawn, frame.services().device.frame_number());
+  set_map_versions(versions, inputs.local);
+  set_map_versions(versions, inputs.directional);
+  return inputs;
+}
+
+void note_reuse(FrameBuilder& frame, const ViewMapState& maps, bool has_keys, ListInputs inputs, ViewReuse& reuse) {
+  // Runs after the commit of the maps, which were declared before.
+  frame.on_commit([&maps, &reuse, inputs = std::move(inputs), faces = keys_of(frame), has_keys,
+                   number = frame.services().device.frame_number()]() mutable {
+    const MapVersions versions = map_versions(faces, maps, {}, 0);
+    set_map_versions(versions, inputs.local);
+    set_map_versions(versions, inputs.directional);
+    reuse = {std::move(inputs), has_keys, 1 - reuse.instance, number};
+  });
+}
+
+}  // namespace gloam

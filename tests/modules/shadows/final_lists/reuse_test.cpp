@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+#include "modules/shadows/final_lists/reuse.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "modules/shadows/atlas/cache.h"
+#include "shaders/lights/lights_shared.h"
+#include "shaders/shadows/final_lists_shared.h"
+
+namespace gloam {
+namespace {
+
+constexpr std::uint32_t kChanged = GLOAM_LIGHT_CHANGED;
+
+LightInputs input(std::uint32_t entity, std::uint64_t hash = 1, std::uint64_t maps = 1, std::uint32_t generation = 0) {
+  return {Entity{entity, generation}, hash, maps};
+}
+
+ListInputs three_lights_and_a_sun() {
+  return {.shared = 5, .local = {input(10), input(11), input(12)}, .directional = {input(20)}};
+}
+
+TEST(LastIndices, find_lights_that_have_not_changed) {
+  const ListInputs last = three_lights_and_a_sun();
+  ListInputs now = last;
+  std::swap(now.local[0], now.local[2]);
+  const std::vector<std::uint32_t> indices = last_indices(last, now);
+  ASSERT_EQ(indices.size(), std::size_t{GLOAM_MAX_LOCAL_LIGHTS + GLOAM_MAX_DIRECTIONAL_LIGHTS});
+  EXPECT_EQ(indices[0], 2u);
+  EXPECT_EQ(indices[1], 1u);
+  EXPECT_EQ(indices[2], 0u);
+  EXPECT_EQ(indices[GLOAM_MAX_LOCAL_LIGHTS], 0u);
+  EXPECT_EQ(std::ranges::count(indices, kChanged), static_cast<std::ptrdiff_t>(indices.size()) - 4);
+}
+
+TEST(LastIndices, of_a_light_that_changed_is_new_or_is_another_entity_there_are_none) {
+  const ListInputs last = three_lights_and_a_sun();
+  ListInputs now = last;
+  now.local = {input(10, 2), input(11, 1, 2), input(12, 1, 1, 1), input(13)};
+  now.directional = {input(10)};  // a local light before
+  const std::vector<std::uint32_t> indices = last_indices(last, now);
+  EXPECT_EQ(std::ranges::count(indices, kChanged), static_cast<std::ptrdiff_t>(indices.size()));
+}
+
+TEST(LastIndices, of_a_frame_that_shares_nothing_there_are_none) {
+  const ListInputs last = three_lights_and_a_sun();
+  ListInputs now = last;
+  now.shared = 6;
+  const std::vector<std::uint32_t> indices = last_indices(last, now);
+  EXPECT_EQ(std::ranges::count(indices, kChanged), static_cast<std::ptrdiff_t>(indices.size()));
+}
+
+TEST(MapVersion, changes_whenever_the_map_is_drawn) {
+  ShadowCache cache;
+  ShadowFace face;
+  face.light = Entity{3, 0};
+  face.square = {uvec2(0), 64};
+  const FaceKey key{face.light, 0, 0};
+  EXPECT_EQ(cache.version(key), 0u);
+  cache.set_drawn(face, {}, 1);
+  const std::uint64_t first = cache.version(key);
+  EXPECT_NE(first, 0u);
+  cache.keep(key, {}, 2);
+  EXPECT_EQ(cache.version(key), first);
+  cache.set_drawn(face, {}, 3);
+  EXPECT_NE(cache.version(key), first);
+  // A map that was lost and drawn again is another one, too.
+  const std::uint64_t second = cache.version(key);
+  cache.clear();
+  cache.set_drawn(face, {}, 4);
+  EXPECT_NE(cache.version(key), first);
+  EXPECT_NE(cache.version(key), second);
+}
+
+}  // namespace
+}  // namespace gloam
