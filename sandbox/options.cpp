@@ -133,6 +133,18 @@ struct CommandApp {
   CLI::App* app;
 };
 
+void add_bench_options(CLI::App& bench, Options& options) {
+  bench.add_option("NAME", options.names, "Benchmarks to run: the id NAME, or all ids that begin with NAME and a dot");
+  bench.add_option("--scene", options.scene, kSceneText)->type_name("SCENE");
+  bench.add_option("--json", options.json_file, "Write the rows as JSON")->type_name("FILE");
+  bench.add_flag("--list", options.list, "List the ids");
+  bench.add_flag("--strict", options.strict, "Fail if a figure misses its bar");
+  bench.footer(
+      "jobs.empty is one batch: 100,000 jobs that exist already, in one call. jobs.spawn creates, runs and destroys\n"
+      "100,000 separate jobs on two workers. Every row carries a hash of its result, except rows that quote a figure\n"
+      "from a paper. If a row fails, the rows before it are still written.");
+}
+
 std::vector<CommandApp> add_commands(CLI::App& root, Options& options, RawTexts& raw) {
   std::vector<CommandApp> commands;
   const auto add = [&](Command command, const char* name, const char* what) {
@@ -179,17 +191,9 @@ std::vector<CommandApp> add_commands(CLI::App& root, Options& options, RawTexts&
   bake->add_flag("--beside", options.beside, "Write the captures beside the scene file, not to the cache");
   add_cost_options(*add(Command::cost, "cost", "Measure error and time of each knob's values. Sets shadows.reuse=off"),
                    options, raw);
-  CLI::App* bench =
-      add(Command::bench, "bench", "Run benchmarks: papers' tables and CPU systems. Sets shadows.reuse=off");
-  bench->add_option("NAME", options.names, "Benchmarks to run: the id NAME, or all ids that begin with NAME and a dot");
-  bench->add_option("--scene", options.scene, kSceneText)->type_name("SCENE");
-  bench->add_option("--json", options.json_file, "Write the rows as JSON")->type_name("FILE");
-  bench->add_flag("--list", options.list, "List the ids");
-  bench->add_flag("--strict", options.strict, "Fail if a figure misses its bar");
-  bench->footer(
-      "jobs.empty is one batch: 100,000 jobs that exist already, in one call. jobs.spawn creates, runs and destroys\n"
-      "100,000 separate jobs on two workers. Every row carries a hash of its result, except rows that quote a figure\n"
-      "from a paper. If a row fails, the rows before it are still written.");
+  add_bench_options(
+      *add(Command::bench, "bench", "Run benchmarks: the papers' tables and the CPU systems. Sets shadows.reuse=off"),
+      options);
   CLI::App* selftest =
       add(Command::selftest, "selftest", "Check that the mathematics holds on this device, and how far");
   selftest->add_flag("--quick", options.quick, "Fewer checks and cases: up to a minute on two cores");
