@@ -70,7 +70,9 @@ std::optional<FinalLists> add_final_lists(FrameBuilder& frame, ShadowStates& sta
   ViewMapState& kept = states.view(world_id(frame.world()), view_faces, frame.view().id);
   ImageRef planes;
   if (knobs.classify) planes = add_shadow_planes_pass(frame, kept, maps, view_faces, knobs);
-  return add_generate_passes(frame, knobs, planes, kept, outputs, reuse.view(world_id(frame.world()), frame.view().id));
+  return add_generate_passes(
+      frame, knobs, planes, kept, outputs,
+      reuse.view(world_id(frame.world()), frame.view().id, frame.services().device.frame_number()));
 }
 
 }  // namespace

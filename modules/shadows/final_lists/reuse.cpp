@@ -88,8 +88,14 @@ std::vector<std::uint32_t> last_indices(const ListInputs& last, const ListInputs
   return indices;
 }
 
+ViewReuse& ListReuse::view(std::uint64_t world, ViewId view, std::uint64_t frame) {
+  ViewReuse& found = views_[{world, view.value}];
+  found.last_use = frame;
+  return found;
+}
+
 void ListReuse::forget_unused(std::uint64_t frame) {
-  std::erase_if(views_, [&](const auto& entry) { return entry.second.frame + kFramesKept < frame; });
+  std::erase_if(views_, [&](const auto& entry) { return entry.second.last_use + kFramesKept < frame; });
 }
 
 void ListReuse::release_view(ViewId view) {

@@ -62,14 +62,15 @@ struct ViewReuse {
   ListInputs inputs;
   bool has_keys = false;       ///< its tiles have keys
   std::uint64_t instance = 0;  ///< 0 or 1: HistoryUse::instance of its buffers
-  std::uint64_t frame = 0;     ///< Device::frame_number
+  std::uint64_t last_use = 0;  ///< Device::frame_number of the last frame that asked for it
 };
 
 /// ViewReuse of all views.
 class ListReuse {
  public:
-  /// Empty for a view that no frame has drawn in the last 120. Valid until the next call of forget_unused() or release.
-  [[nodiscard]] ViewReuse& view(std::uint64_t world, ViewId view) { return views_[{world, view.value}]; }
+  /// Empty for a view that has not asked in the last 120 frames. Stays where it is until then. frame:
+  /// Device::frame_number.
+  [[nodiscard]] ViewReuse& view(std::uint64_t world, ViewId view, std::uint64_t frame);
   void forget_unused(std::uint64_t frame);
   void release_view(ViewId view);
   void release() { views_.clear(); }

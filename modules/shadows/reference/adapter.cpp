@@ -126,7 +126,8 @@ std::vector<ReferenceInfo> shadow_references() {
   add_shadow_knobs(registry);
   std::vector<ReferenceInfo> references;
   for (const Knob& knob : registry.knobs()) {
-    if (knob.name == kShadowClassify.name) continue;  // it has a measure: shadow_measures()
+    // The first has a measure (shadow_measures()), the second an exact value.
+    if (knob.name == kShadowClassify.name || knob.name == kShadowReuse.name) continue;
     references.push_back(traced_shadows(knob.name));
     references.back().follows_value = knob.name == kShadowTerminator.name;  // rays begin where receivers are judged
   }

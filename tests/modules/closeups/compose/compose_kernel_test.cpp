@@ -170,6 +170,7 @@ struct Lists {
   std::vector<shaders::ShadowListCounters> counters{1};
   std::vector<shaders::ShadowListCommands> commands{1};
   std::vector<std::uint32_t> fallback;
+  std::vector<shaders::KeptTile> kept;
   std::uint32_t end_slot = 0;
 
   std::uint32_t& word(const Settings& s, std::uint32_t slot, std::uint32_t i) {
@@ -235,6 +236,7 @@ Lists make_lists(const Settings& s, std::mt19937& random, bool split) {
   }
   lists.counters[0].slots = lists.end_slot;
   lists.fallback.assign(count, kGuard);
+  lists.kept.assign(count, {uvec4(1), 2, 3, 4, 5});
   return lists;
 }
 
@@ -283,10 +285,12 @@ class ComposeCloseup : public test::ShadowKernelTest {
     d.sampled(20, gpu::Format::rg32_float, Wall::tiles(), wall.bounds);
     d.sampled(21, gpu::Format::rg32_uint, {1, 1}, std::vector<uvec2>(1));     // not read: no terminator
     d.sampled(22, gpu::Format::rgba16_float, {1, 1}, std::vector<uvec2>(1));  // not read: no light passes through
+    d.in_out(23, lists.kept);
     test::ProbeSettings filter{.filter = s.standard ? 3u : 0u, .levels = (1u << s.bits) - 1, .standard = s.standard};
     auto constants = filter.constants();
     constants.set("local_size_x", s.threads);
     constants.set("kVisibilityBits", s.bits);
+    constants.set("kReuse", 1u);
     const auto pipeline = test::value_of(
         device().create_pipeline(gpu::ComputePipelineDesc{"closeup_compose", "test", code_of(s), constants}));
     d.run(pipeline, Wall::end() - Wall::first());
@@ -316,6 +320,7 @@ class ComposeCloseup : public test::ShadowKernelTest {
     for (std::uint32_t tile = 0; tile < before.tiles.size() && !HasFailure(); ++tile) {
       SCOPED_TRACE("tile " + std::to_string(tile));
       check_tile(wall, pair, s, tile, before, after, tally, entries);
+      check_kept(s, tile, before, after);
     }
     if (HasFailure()) return tally;
     check_words(s, before, after, tally);
@@ -380,6 +385,22 @@ class ComposeCloseup : public test::ShadowKernelTest {
       ++tally.kept_slots;
     }
     check_pixels(wall, pair, s, tile, old_slot, slot, before, after, tally);
+  }
+  /// A tile of which anything has changed is not kept for the next frame; all others are.
+  static void check_kept(const Settings& s, std::uint32_t tile, Lists& before, Lists& after) {
+    const uvec4 texel = before.tiles[tile];
+    bool changed = after.tiles[tile] != texel;
+    const std::uint32_t counts[] = {texel.z >> 16, texel.z & 0xFFFFu}, firsts[] = {texel.x, texel.y};
+    for (int run = 0; run < 2; ++run)
+      for (std::uint32_t i = 0; i < counts[run]; ++i) {
+        const std::uint32_t entry = before.entries[firsts[run] + i], slot = entry >> 10;
+        changed = changed || after.entries[firsts[run] + i] != entry;
+        for (std::uint32_t word = 0; slot < GLOAM_NO_ROOM && word < 2 * s.bits; ++word)
+          changed = changed || after.word(s, slot, word) != before.word(s, slot, word);
+      }
+    const shaders::KeptTile& kept = after.kept[tile];
+    EXPECT_EQ(kept.local_first, changed ? GLOAM_NO_FINAL_LIST : 3u);
+    EXPECT_EQ(uvec4(kept.key.x, kept.directional_first, kept.counts, kept.reserved), uvec4(1, 2, 4, 5));
   }
   static std::uint32_t old_steps(const Settings& s, std::uint32_t slot, std::uint32_t pixel, Lists& before) {
     return slot == GLOAM_ALL_LIT ? (1u << s.bits) - 1 : before.steps(s, slot, pixel);
