@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "modules/shadows/final_lists/generate.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -198,11 +199,12 @@ void list_reuse_pipelines(std::uint32_t visibility_bits, const ShadowsOutputs& s
   list.push_back(pipeline_desc(finish_program(true), "shadows"));
 }
 
-/// Decides what the frame keeps of the last one: nothing, if what all tiles share has changed.
+/// Decides what the frame keeps of the last one: nothing, if what all tiles share has changed, or each light.
 Kept plan_kept(FrameBuilder& frame, const ShadowsOutputs& shadows, const FinalListBuffers& buffers,
                const ListInputs& inputs, const ViewReuse& reuse) {
   Kept kept;
-  if (inputs.shared != reuse.inputs.shared) return kept;
+  std::vector<std::uint32_t> indices = last_indices(reuse.inputs, inputs);
+  if (!keeps_any(inputs, indices)) return kept;
   const FrameServices& services = frame.services();
   PipelineList list;
   list_reuse_pipelines(buffers.lists.visibility_bits, shadows, list);
@@ -210,8 +212,8 @@ Kept plan_kept(FrameBuilder& frame, const ShadowsOutputs& shadows, const FinalLi
   kept.last = use_kept_buffers(frame, buffers.sizes, reuse.instance);
   if (!frame.status().ok()) return kept;
   kept.keys = true;
-  const bool known = reuse.has_keys && kept.last.filled;
-  kept.last_indices = last_indices(known ? reuse.inputs : ListInputs{}, inputs);
+  if (!reuse.has_keys || !kept.last.filled) std::ranges::fill(indices, GLOAM_LIGHT_CHANGED);
+  kept.last_indices = std::move(indices);
   return kept;
 }
 

@@ -88,6 +88,15 @@ std::vector<std::uint32_t> last_indices(const ListInputs& last, const ListInputs
   return indices;
 }
 
+bool keeps_any(const ListInputs& now, std::span<const std::uint32_t> indices) {
+  const auto keeps = [&](const std::vector<LightInputs>& lights, std::size_t first) {
+    for (std::size_t i = 0; i < lights.size(); ++i)
+      if (lights[i].maps != 0 && indices[first + i] != GLOAM_LIGHT_CHANGED) return true;
+    return false;
+  };
+  return keeps(now.local, 0) || keeps(now.directional, GLOAM_MAX_LOCAL_LIGHTS);
+}
+
 ViewReuse& ListReuse::view(std::uint64_t world, ViewId view, std::uint64_t frame) {
   ViewReuse& found = views_[{world, view.value}];
   found.last_use = frame;

@@ -26,7 +26,7 @@ namespace gloam {
 struct LightInputs {
   Entity light = kNoEntity;
   std::uint64_t hash = 0;  ///< where its light falls, and its row or cascades
-  std::uint64_t maps = 0;  ///< versions of its maps
+  std::uint64_t maps = 0;  ///< versions of its maps; 0: it has none
 };
 
 /// The same of a view.
@@ -39,6 +39,8 @@ struct ListInputs {
 /// For each light of `now` its index in `last`, or GLOAM_LIGHT_CHANGED if it is not there or has changed: local lights,
 /// and from GLOAM_MAX_LOCAL_LIGHTS on directional ones. All have changed if `shared` differs.
 [[nodiscard]] std::vector<std::uint32_t> last_indices(const ListInputs& last, const ListInputs& now);
+/// Whether a light with maps has not changed: without one, keys of tiles are of no use. indices: last_indices().
+[[nodiscard]] bool keeps_any(const ListInputs& now, std::span<const std::uint32_t> indices);
 
 /// Bytes of the buffers that outlive a frame.
 struct KeptSizes {

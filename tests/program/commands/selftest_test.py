@@ -134,6 +134,8 @@ class Selftest(ProgramCase):
     # Hard case: program.selftest_fails
     def test_the_quick_test_holds_on_a_second_device(self):
         # Its rasterizer has a coarser grid, its compiler walks all paths: other reasons for faults than on lavapipe.
+        if not LONG:
+            self.skipTest("GLOAM_LONG_TESTS is not set")
         if not SECOND_DRIVER.is_file():
             self.skipTest("there is no SwiftShader")
         self.expect(0, "selftest", "--quick", "--device", "swiftshader", **ON_SECOND)

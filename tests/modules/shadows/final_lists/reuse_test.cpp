@@ -46,6 +46,19 @@ TEST(LastIndices, of_a_light_that_changed_is_new_or_is_another_entity_there_are_
   EXPECT_EQ(std::ranges::count(indices, kChanged), static_cast<std::ptrdiff_t>(indices.size()));
 }
 
+TEST(LastIndices, keep_something_only_if_a_light_with_maps_has_not_changed) {
+  const ListInputs last = three_lights_and_a_sun();
+  ListInputs now = last;
+  EXPECT_TRUE(keeps_any(now, last_indices(last, now)));
+  for (LightInputs& light : now.local) light.maps = 2;
+  EXPECT_TRUE(keeps_any(now, last_indices(last, now))) << "the sun";
+  now.directional[0].maps = 2;
+  EXPECT_FALSE(keeps_any(now, last_indices(last, now)));
+  // A light without maps is lit at once: its entries are not worth a key.
+  const ListInputs bare{.shared = 5, .local = {input(10, 1, 0)}};
+  EXPECT_FALSE(keeps_any(bare, last_indices(bare, bare)));
+}
+
 TEST(LastIndices, of_a_frame_that_shares_nothing_there_are_none) {
   const ListInputs last = three_lights_and_a_sun();
   ListInputs now = last;
