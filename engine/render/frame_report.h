@@ -41,6 +41,8 @@ struct FrameReport {
   std::uint64_t plans_compiled = 0;  ///< FrameGraph::plans_compiled, since the renderer was made
   /// Pipelines being compiled in the background; until then, frames leave passes out or use slower ones.
   std::size_t pipelines_pending = 0;
+  /// Name of the one whose compilation in the background began last; empty if none is pending.
+  std::string pipeline_made;
   /// Meshes and images of the world drawn last that are not shown as they are in SceneAssets yet.
   std::size_t assets_pending = 0;
 };

@@ -53,6 +53,7 @@ inline constexpr PassPhase kAllPhases[] = {PassPhase::announce, PassPhase::geome
 struct HeatScale {
   double most = 0.0;  ///< 0: the visualizer has no such scale
   std::string unit = {};
+  bool counts = false;  ///< the numbers are counts: legends show whole numbers only
 };
 
 /// A picture a module can show instead of the lit one.
@@ -180,6 +181,10 @@ class Module {
   [[nodiscard]] virtual bool wants_jitter(const World&, const KnobRegistry&) const { return false; }
   /// Whether the module's passes read GeometryOutputs::smooth_surfaces. Called like needs_motion.
   [[nodiscard]] virtual bool needs_smooth_surfaces(const World&, const KnobRegistry&) const { return false; }
+  /// Whether the module changes the picture from frame to frame while camera, knobs and components stay the same: it
+  /// simulates, or adapts to earlier frames. Tools then do not keep a picture of the world in place of drawing it.
+  /// Accumulation that settles within 8 frames does not count. Called like needs_casters.
+  [[nodiscard]] virtual bool changes_at_rest(const World&, const KnobRegistry&) const { return false; }
   /// Whether a frame without the module makes no sense. Then frames wait for its pipelines even with
   /// Readiness::background.
   [[nodiscard]] virtual bool essential() const { return false; }

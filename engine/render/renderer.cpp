@@ -119,6 +119,15 @@ Status Renderer::render(World& world, std::span<const ViewRequest> requests) {
   return frame.ok() ? Status() : frame.error();
 }
 
+bool Renderer::changes_at_rest(const World& world) const {
+  return parts_->modules.any_needs(&Module::changes_at_rest, world, parts_->knobs.set);
+}
+
+void Renderer::set_readiness(Readiness readiness) {
+  parts_->check_idle("set_readiness");
+  parts_->options.readiness = readiness;
+}
+
 Status Renderer::wait() { return parts_->options.device->wait_idle(); }
 
 FrameReport Renderer::report() {

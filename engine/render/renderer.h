@@ -86,6 +86,12 @@ class Renderer {
   /// the system or the pass, if they are derived from std::exception; others pass through after the frame was given up.
   /// A view of more than kMostViewPixels a side is a usage error.
   [[nodiscard]] Status render(World& world, std::span<const ViewRequest> views);
+  /// Replaces RendererOptions::readiness from the next frame on: tools show a whole first frame, and then wait for
+  /// nothing. Uploads of changed assets stay as they were created.
+  void set_readiness(Readiness readiness);
+  /// Whether a module that the last frame's world demanded changes the picture of this world while nothing else does
+  /// (Module::changes_at_rest). False before the first frame. Animations of the scene are not asked about.
+  [[nodiscard]] bool changes_at_rest(const World& world) const;
   /// Waits until the GPU has finished everything submitted.
   [[nodiscard]] Status wait();
 

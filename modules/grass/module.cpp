@@ -181,6 +181,8 @@ class GrassModule final : public Module {
     }
     return {true, std::to_string(surfaces) + (surfaces == 1 ? " surface grows grass" : " surfaces grow grass")};
   }
+  /// Blades sway, and regrow where they were cut.
+  [[nodiscard]] bool changes_at_rest(const World&, const KnobRegistry&) const override { return true; }
   [[nodiscard]] bool shows_surfaces(const World& world, const RenderView& view) const override {
     const auto* visible = world.try_view_resource<VisiblePatches>(view.id);
     return visible != nullptr && visible->in_view > 0;

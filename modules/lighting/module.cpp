@@ -62,6 +62,10 @@ class LightingModule final : public Module {
     return knobs.value(kAntialiasing) == Antialiasing::taa;
   }
 
+  [[nodiscard]] bool changes_at_rest(const World&, const KnobRegistry& knobs) const override {
+    return knobs.value(kExposure) == ExposureMode::adapting;
+  }
+
   [[nodiscard]] bool essential() const override { return true; }
 
   /// While these are made, frames keep the last knobs, so that changing a knob of shadows never shows a frame without

@@ -54,6 +54,7 @@ class ParticlesModule final : public Module {
     return {true, std::to_string(visible->emitters.size()) + " of " + std::to_string(emitters) +
                       (emitters == 1 ? " emitter in view" : " emitters in view")};
   }
+  [[nodiscard]] bool changes_at_rest(const World&, const KnobRegistry&) const override { return true; }
   void add_systems(Schedule& schedule) override {
     schedule.add_system("particle_emitters", "particles", Stage::world, &particle_emitters_system);
     schedule.add_system("particle_lights", "particles", Stage::world, &particle_lights_system);

@@ -5,7 +5,9 @@
 namespace gloam {
 
 const KnobRegistry& KnobsInUse::settle(const ModuleSet& modules, const PipelineWait& wait) {
-  const KnobRegistry& drawn = wait.readiness == Readiness::wait ? set : settle_in_background(modules, wait);
+  const bool waits = wait.readiness == Readiness::wait;
+  if (waits && settled) settled->take_values(set);
+  const KnobRegistry& drawn = waits ? set : settle_in_background(modules, wait);
   drawn_version = drawn.version();
   return drawn;
 }

@@ -74,12 +74,20 @@ bool ModuleSet::view_needs(Question question, const ViewQuery& query) const {
 bool ModuleSet::take_part(std::size_t index, const ViewQuery& query, const PipelineWait& wait) {
   if (!may_draw(index, query)) return false;
   const Module& module = *modules_[index];
-  uses_[index].in_frame = true;
-  uses_[index].views.emplace(world_id(query.world), query.view.id.value);
-  if (wait.readiness == Readiness::wait || module.essential()) return true;
+  Use& use = uses_[index];
+  const std::pair key(world_id(query.world), query.view.id.value);
+  use.in_frame = true;
+  use.views.insert(key);
+  if (module.essential()) return true;
+  if (wait.readiness == Readiness::wait) {
+    use.waited.insert(key);
+    return true;
+  }
   PipelineList needed;
   module.pipelines(query.knobs, wait.device, needed);
-  return wait.pipelines.request(needed, wait.log);
+  const bool ready = wait.pipelines.request(needed, wait.log);
+  if (ready) use.waited.erase(key);
+  return ready || use.waited.contains(key);
 }
 
 std::vector<Module*> ModuleSet::begin_view(const ViewQuery& query, const PipelineWait& wait) {
@@ -139,13 +147,15 @@ void ModuleSet::release(std::size_t index, FrameResources& resources) {
   modules_[index]->release();
   resources.forget_module(modules_[index]->name());
   uses_[index].views.clear();
+  uses_[index].waited.clear();
 }
 
 void ModuleSet::release_modules_of(const std::function<bool(std::uint64_t world, std::uint32_t view)>& gone,
                                    FrameResources& resources) {
   for (std::size_t i = 0; i < uses_.size(); ++i) {
-    const std::size_t erased =
-        std::erase_if(uses_[i].views, [&](const auto& view) { return gone(view.first, view.second); });
+    const auto is_gone = [&](const auto& view) { return gone(view.first, view.second); };
+    std::erase_if(uses_[i].waited, is_gone);
+    const std::size_t erased = std::erase_if(uses_[i].views, is_gone);
     if (erased > 0 && uses_[i].views.empty()) release(i, resources);
   }
 }

@@ -99,6 +99,9 @@ class ModuleSet {
     std::uint32_t absent_frames = 0;  ///< since a world demanded it
     /// The views (world_id and id) that it has taken part in since it was released last.
     std::set<std::pair<std::uint64_t, std::uint32_t>> views;
+    /// Those of them whose frames waited for its pipelines. It stays in them when frames no longer wait, although its
+    /// list (Module::pipelines) may name more pipelines than these frames have made.
+    std::set<std::pair<std::uint64_t, std::uint32_t>> waited;
   };
   [[nodiscard]] bool may_draw(std::size_t index, const ViewQuery& query) const;
   [[nodiscard]] bool take_part(std::size_t index, const ViewQuery& query, const PipelineWait& wait);

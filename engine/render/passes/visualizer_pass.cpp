@@ -3,6 +3,7 @@
 #include "engine/render/passes/visualizer_pass.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "engine/core/text/formatted.h"
@@ -26,18 +27,18 @@ gpu::SpecConstants visualizer_constants(FrameBuilder& frame) {
   return constants;
 }
 
-double heat_value(const HeatScale& scale, float heat_range, int stop) {
-  return scale.most * static_cast<double>(heat_range) * stop / (GLOAM_HEAT_STOPS - 1);
-}
-
-std::string heat_number(double value) { return formatted("%.3g", value); }
-
-std::string heat_text(const HeatScale& scale, float heat_range) {
-  constexpr const char* kNames[GLOAM_HEAT_STOPS] = {"black", "blue", "cyan", "green", "yellow", "red"};
-  std::string text;
-  for (int stop = 0; stop < GLOAM_HEAT_STOPS; ++stop)
-    text += std::string(kNames[stop]) + " " + heat_number(heat_value(scale, heat_range, stop)) + ", ";
-  return text + "white more" + (scale.unit.empty() ? "" : " " + scale.unit);
+std::vector<HeatTick> heat_ticks(const HeatScale& scale, float heat_range) {
+  constexpr int kSteps = GLOAM_HEAT_STOPS - 1;
+  constexpr double kRounding = 1e-5;  // of the range, which is a float
+  const double end = scale.most * static_cast<double>(heat_range);
+  double step = end / kSteps;
+  if (scale.counts) step = std::max(1.0, std::ceil(step * (1.0 - kRounding)));
+  std::vector<HeatTick> ticks;
+  for (int i = 0; i <= kSteps && i * step <= end * (1.0 + kRounding); ++i)
+    ticks.push_back(
+        {std::min(i * step / end, 1.0), scale.counts ? formatted("%.0f", i * step) : formatted("%.3g", i * step)});
+  if (!scale.unit.empty()) ticks.back().text += " " + scale.unit;
+  return ticks;
 }
 
 vec3 heat_color(double share) {

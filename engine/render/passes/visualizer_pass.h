@@ -20,12 +20,14 @@ ImageRef add_visualizer_targets(FrameBuilder& frame, DrawPass& pass, std::string
 /// a heat scale, kHeatRange, the factor on its end (shaders/common/heat.glsl).
 [[nodiscard]] gpu::SpecConstants visualizer_constants(FrameBuilder& frame);
 
-/// The value at a stop of a heat scale, 0…GLOAM_HEAT_STOPS − 1, and the text of a whole scale: "black 0, blue 6, cyan
-/// 12, green 19, yellow 25, red 31, white more".
-[[nodiscard]] double heat_value(const HeatScale& scale, float heat_range, int stop);
-[[nodiscard]] std::string heat_text(const HeatScale& scale, float heat_range);
-/// A number with three significant digits, without zeros at the end.
-[[nodiscard]] std::string heat_number(double value);
+/// A number in the legend of a heat scale.
+struct HeatTick {
+  double share = 0.0;  ///< place on the scale, 0…1
+  std::string text;    ///< three significant digits at most; the last one is followed by the unit
+};
+/// Ticks of a legend, from 0 up. Scales of counts have whole numbers at equal steps, at most GLOAM_HEAT_STOPS of them;
+/// the scale's end has none if it is no multiple of the step. Other scales have a tick at each stop of the colours.
+[[nodiscard]] std::vector<HeatTick> heat_ticks(const HeatScale& scale, float heat_range);
 /// The colour at a position of a heat scale, 0…1, in linear RGB.
 [[nodiscard]] vec3 heat_color(double share);
 

@@ -124,6 +124,11 @@ std::size_t Pipelines::pending() const {
   return begun_.size();
 }
 
+std::string Pipelines::made_in_background() const {
+  const std::lock_guard lock(mutex_);
+  return made_;
+}
+
 void Pipelines::run_worker(const std::stop_token& stop, LogSink& log) {
   std::unique_lock lock(mutex_);
   while (wake_.wait(lock, stop, [&] { return !queue_.empty(); }) && !stop.stop_requested()) make_first(lock, log);
@@ -132,9 +137,10 @@ void Pipelines::run_worker(const std::stop_token& stop, LogSink& log) {
 void Pipelines::make_first(std::unique_lock<std::mutex>& lock, LogSink& log) {
   const AnyDesc desc = std::move(queue_.front());
   queue_.erase(queue_.begin());
+  const std::string name = std::visit([](const auto& d) { return name_of(d); }, desc);
+  made_ = name;
   lock.unlock();
   const auto made = std::visit([&](const auto& d) { return get(d); }, desc);
-  const std::string name = std::visit([](const auto& d) { return name_of(d); }, desc);
   if (!made.ok()) log.warning("pipeline " + name + " failed in the background: " + made.error().message);
   lock.lock();
   begun_.erase(key_of_any(desc));

@@ -50,6 +50,8 @@ class Pipelines {
   [[nodiscard]] bool request(const PipelineList& list, LogSink& log);
   /// Number of pipelines that are queued or compiled in the background.
   [[nodiscard]] std::size_t pending() const;
+  /// Name of the pipeline whose compilation in the background began last; empty: none so far.
+  [[nodiscard]] std::string made_in_background() const;
   /// From now on, pipelines whose descriptions name this shader are made from these words. Existing ones are destroyed.
   /// No frame may be recorded meanwhile.
   void replace_shader(std::string_view name, std::vector<std::uint32_t> words);
@@ -82,6 +84,7 @@ class Pipelines {
   /// By name. Devices may identify shaders by the address of their words, so that replaced words stay.
   std::unordered_map<std::string, std::deque<std::vector<std::uint32_t>>> replaced_;
   PipelineList queue_;
+  std::string made_;  ///< made_in_background
   std::condition_variable_any wake_;
   std::jthread worker_;  ///< started by the first request; destroyed before the members above
 };

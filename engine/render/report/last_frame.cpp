@@ -69,6 +69,7 @@ FrameReport LastFrame::report(const ModuleSet& modules, FrameResources& resource
   report.views = views_;
   report.plans_compiled = resources.graph.plans_compiled();
   report.pipelines_pending = resources.pipelines.pending();
+  if (report.pipelines_pending > 0) report.pipeline_made = resources.pipelines.made_in_background();
   report.assets_pending = assets_pending;
   const std::vector<gpu::ModuleMemory> memory = device.memory();
   ModuleState engine = state_of("engine", device, memory);

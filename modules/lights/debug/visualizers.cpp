@@ -71,7 +71,7 @@ std::vector<VisualizerInfo> light_visualizers() {
     view.knob = kLightCulling.name;
     view.value = text_of(kLightCulling, LightCulling::tiled);
     view.shows_lists = true;
-    if (view.argument.empty()) view.heat = {31.0};
+    if (view.argument.empty()) view.heat = {.most = 31.0, .counts = true};
   }
   return views;
 }

@@ -10,7 +10,7 @@ namespace gloam {
 
 std::vector<VisualizerInfo> particle_visualizers() {
   VisualizerInfo view = {"overdraw", "particles", "", "sprites at each pixel"};
-  view.heat = {63.0};
+  view.heat = {.most = 63.0, .counts = true};
   return {view};
 }
 

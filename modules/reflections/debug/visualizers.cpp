@@ -40,8 +40,8 @@ std::vector<VisualizerInfo> reflection_visualizers(const ExtrasOf& extras) {
       {kTracedView, "reflections", "", "the picture with traced reflections in place of all tiers"}};
   for (VisualizerInfo& view : views) {
     if (view.name == "reflection_confidence") view.heat = {1.0};
-    if (view.name == "ibr_tiles") view.heat = {31.0};
-    if (view.name == "ibr_layers") view.heat = {5.0};
+    if (view.name == "ibr_tiles") view.heat = {.most = 31.0, .counts = true};
+    if (view.name == "ibr_layers") view.heat = {.most = 5.0, .counts = true};
   }
   views.push_back({kIndirectView, "reflections", "",
                    "the picture with light that one diffuse bounce brings, traced, in place of lighting.indirect"});

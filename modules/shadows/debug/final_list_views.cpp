@@ -55,7 +55,7 @@ std::vector<VisualizerInfo> final_list_visualizers() {
     view.knob = kShadowMode.name;
     view.value = text_of(kShadowMode, ShadowMode::deferred);
     view.shows_lists = true;
-    view.heat = {view.name == "lights_final" ? 31.0 : 10.0};
+    view.heat = {.most = view.name == "lights_final" ? 31.0 : 10.0, .counts = true};
   }
   return views;
 }

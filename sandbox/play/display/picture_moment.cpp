@@ -3,8 +3,6 @@
 #include "sandbox/play/display/picture_moment.h"
 
 #include <algorithm>
-#include <array>
-#include <string_view>
 
 #include "engine/ecs/view.h"
 #include "engine/scene/assets.h"
@@ -61,15 +59,7 @@ PictureMoment picture_moment(const Session& session, const ViewSettings& view, d
 }
 
 bool scene_moves(const Session& session) {
-  if (!session.world.resource<SceneAssets>().clips.empty()) return true;
-  const KnobRegistry& knobs = session.renderer->knobs();
-  const Knob* exposure = knobs.find("lighting.exposure");
-  if (exposure != nullptr && knobs.text(*exposure) == "adapting") return true;
-  constexpr std::array<std::string_view, 2> kSimulate = {"grass", "particles"};
-  const FrameReport report = session.renderer->report();
-  return std::ranges::any_of(report.modules, [&](const ModuleState& module) {
-    return module.demanded && std::ranges::find(kSimulate, module.name) != kSimulate.end();
-  });
+  return !session.world.resource<SceneAssets>().clips.empty() || session.renderer->changes_at_rest(session.world);
 }
 
 }  // namespace gloam

@@ -20,8 +20,8 @@ struct PictureMoment {
 /// The moment of the session's next frame. time_s: simulated, or any constant if the time changes nothing in the scene.
 [[nodiscard]] PictureMoment picture_moment(const Session& session, const ViewSettings& view, double time_s);
 
-/// Whether pictures of the scene change with time: something is animated, a module that simulates is demanded, or the
-/// exposure adapts.
+/// Whether pictures of the scene change with time: something is animated, or a module that was demanded by the last
+/// frame changes the picture by itself (Module::changes_at_rest).
 [[nodiscard]] bool scene_moves(const Session& session);
 
 }  // namespace gloam

@@ -73,6 +73,9 @@ class VeilModule final : public Module {
     return {true, "the scene has a veil"};
   }
 
+  // The mist rises by itself, so a window must go on drawing while nothing else moves.
+  [[nodiscard]] bool changes_at_rest(const World&, const KnobRegistry&) const override { return true; }
+
   [[nodiscard]] std::vector<VisualizerInfo> visualizers() const override {
     return {
         {.name = "veil_share", .module = "veil", .legend = "share of the light that is the mist's: black 0, white 1"}};

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "modules/closeups/components.h"
+#include "modules/grass/components.h"
+#include "modules/particles/components.h"
 #include "modules/shadows/components.h"
 #include "tests/render/modules_in_use/demand_fixture.h"
 
@@ -45,6 +47,30 @@ INSTANTIATE_TEST_SUITE_P(Modules, DemandOf, ::testing::ValuesIn(kOptionalModules
                          [](const auto& instance) { return instance.param; });
 
 using DemandOfEveryModule = test::DemandTest;
+
+// A window keeps the picture of a scene at rest, so a module that forgets to answer would stand still in it.
+TEST_F(DemandOfEveryModule, pictures_at_rest_change_with_what_simulates_or_adapts_and_nothing_else) {
+  every_module_ = true;
+  make_renderer(Readiness::wait);
+  EXPECT_FALSE(renderer_->changes_at_rest(*world_)) << "no frame has asked the modules yet";
+  static_cast<void>(call_for("lights"));
+  static_cast<void>(call_for("fog"));
+  frames();
+  EXPECT_FALSE(renderer_->changes_at_rest(*world_)) << "lights, shadows and fog stand still";
+  ASSERT_TRUE(renderer_->knobs().set("lighting.exposure", "adapting").ok());
+  EXPECT_TRUE(renderer_->changes_at_rest(*world_));
+  ASSERT_TRUE(renderer_->knobs().set("lighting.exposure", "metered").ok());
+  EXPECT_FALSE(renderer_->changes_at_rest(*world_));
+  const Entity fountain = world_->create(WorldTransform{in_view()}, ParticleEmitter{.kind = EmitterKind::dust});
+  frames();
+  EXPECT_TRUE(renderer_->changes_at_rest(*world_));
+  world_->destroy(fountain);
+  frames();
+  EXPECT_FALSE(renderer_->changes_at_rest(*world_));
+  static_cast<void>(world_->create(WorldTransform{in_view()}, GrassSurface{.density = 10.0f}));
+  frames();
+  EXPECT_TRUE(renderer_->changes_at_rest(*world_));
+}
 
 TEST_F(DemandOfEveryModule, without_it_a_module_runs_nothing_and_owns_nothing) {
   every_module_ = true;

@@ -28,6 +28,7 @@ struct Answers {
   bool view = true;
   bool casters = false;
   bool essential = false;
+  bool moves = false;
   std::string reason = "asked";
   bool pipeline = false;  ///< lists one pipeline
   std::uint32_t released = 0;
@@ -45,6 +46,7 @@ class AskedModule final : public Module {
   }
   [[nodiscard]] bool needs_casters(const World&, const KnobRegistry&) const override { return answers_.casters; }
   [[nodiscard]] bool essential() const override { return answers_.essential; }
+  [[nodiscard]] bool changes_at_rest(const World&, const KnobRegistry&) const override { return answers_.moves; }
   [[nodiscard]] std::vector<VisualizerInfo> visualizers() const override {
     return {{name_ + "_view", name_, "", "a legend"}};
   }
@@ -123,6 +125,18 @@ TEST(ModuleSet, questions_reach_only_the_modules_that_are_demanded) {
   set.b.world = false;
   set.draw();
   EXPECT_FALSE(set.modules.any_needs(&Module::needs_casters, set.world, set.knobs));
+}
+
+TEST(ModuleSet, only_demanded_modules_are_asked_whether_they_change_pictures_at_rest) {
+  TwoModules set;
+  const auto moves = [&] { return set.modules.any_needs(&Module::changes_at_rest, set.world, set.knobs); };
+  set.draw();
+  EXPECT_FALSE(moves());
+  set.b.moves = true;
+  EXPECT_TRUE(moves());
+  set.b.world = false;
+  set.draw();
+  EXPECT_FALSE(moves());
 }
 
 TEST(ModuleSet, an_idle_module_gives_its_memory_back_once) {

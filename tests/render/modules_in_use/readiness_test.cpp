@@ -107,6 +107,46 @@ TEST_P(ReadinessOf, toggling_grows_nothing) {
 
 class ReadinessFrames : public BackgroundRenderer {};
 
+TEST_F(ReadinessFrames, a_renderer_that_waited_stops_waiting_and_names_what_it_makes) {
+  gate_->open();
+  make_renderer(Readiness::wait);
+  static_cast<void>(call_for("fog"));
+  frames();
+  EXPECT_GE(seen("fog").passes, 1u) << "the first frame has every effect";
+  EXPECT_EQ(renderer_->report().pipeline_made, "");
+  renderer_->set_readiness(Readiness::background);
+  frames();
+  EXPECT_GE(seen("fog").passes, 1u);
+  gate_->close();
+  ASSERT_TRUE(renderer_->knobs().set("fog.resolution", "half").ok());
+  frames(3);
+  ASSERT_TRUE(gate_->wait_for_one_at_the_gate());
+  EXPECT_THAT(renderer_->report().pipeline_made, HasSubstr("fog/"));
+  gate_->open();
+  frames_until_nothing_is_pending();
+  EXPECT_EQ(renderer_->report().pipeline_made, "");
+}
+
+TEST_F(ReadinessFrames, values_that_were_set_while_it_waited_stay_when_it_waits_no_longer) {
+  gate_->open();
+  static_cast<void>(call_for("fog"));
+  frames();
+  frames_until_there_are_passes_of("fog");
+  frames_until_nothing_is_pending();
+  const auto reduces_to = [&](const char* divisor) {
+    return std::ranges::any_of(last_commands(), [&](const std::string& line) {
+      return line.find("fog/reduce.frag kDivisor=" + std::string(divisor)) != std::string::npos;
+    });
+  };
+  renderer_->set_readiness(Readiness::wait);
+  ASSERT_TRUE(renderer_->knobs().set("fog.resolution", "half").ok());
+  frames();
+  EXPECT_TRUE(reduces_to("2"));
+  renderer_->set_readiness(Readiness::background);
+  frames();
+  EXPECT_TRUE(reduces_to("2"));
+}
+
 TEST_F(ReadinessFrames, a_module_waits_for_the_last_of_its_pipelines) {
   constexpr std::uint32_t kPipelines = 5;  // of the blur, and two each of the passes that read depth
   static_cast<void>(call_for("fog"));

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <memory>
 #include <string>
 #include <utility>
@@ -97,6 +98,42 @@ TEST(VisualizerPass, draws_one_triangle_over_all_of_the_picture_and_its_values) 
   EXPECT_THAT(commands[0].text, HasSubstr("27"));
   EXPECT_THAT(commands[0].text, ::testing::ContainsRegex("color 'picture' color 'heat'"));
   EXPECT_THAT(commands[5].text, HasSubstr("3"));
+}
+
+/// "0@0.00 6@0.20 …": the ticks and their places.
+std::string ticks_text(const HeatScale& scale, float range) {
+  std::string text;
+  for (const HeatTick& tick : heat_ticks(scale, range)) {
+    char place[16];
+    std::snprintf(place, sizeof(place), "@%.2f ", tick.share);
+    text += tick.text + place;
+  }
+  return text;
+}
+
+TEST(HeatTicks, of_measures_are_at_the_stops_of_the_colours) {
+  EXPECT_EQ(ticks_text({.most = 1.0}, 1.0f), "0@0.00 0.2@0.20 0.4@0.40 0.6@0.60 0.8@0.80 1@1.00 ");
+  EXPECT_EQ(ticks_text({.most = 5.0, .unit = "cd"}, 0.5f), "0@0.00 0.5@0.20 1@0.40 1.5@0.60 2@0.80 2.5 cd@1.00 ");
+}
+
+TEST(HeatTicks, of_counts_are_whole_numbers_where_the_colours_have_them) {
+  EXPECT_EQ(ticks_text({.most = 30.0, .counts = true}, 1.0f), "0@0.00 6@0.20 12@0.40 18@0.60 24@0.80 30@1.00 ");
+  EXPECT_EQ(ticks_text({.most = 31.0, .counts = true}, 1.0f), "0@0.00 7@0.23 14@0.45 21@0.68 28@0.90 ");
+  EXPECT_EQ(ticks_text({.most = 31.0, .unit = "lights", .counts = true}, 5.0f / 31.0f),
+            "0@0.00 1@0.20 2@0.40 3@0.60 4@0.80 5 lights@1.00 ");
+  EXPECT_EQ(ticks_text({.most = 31.0, .counts = true}, 1.0f / 16.0f), "0@0.00 1@0.52 ") << "of an end at 1.9";
+  EXPECT_EQ(ticks_text({.most = 5.0, .counts = true}, 1.0f / 16.0f), "0@0.00 ") << "of an end at 0.3";
+}
+
+// The range is a float: a step must not become the next whole number, or the last tick be lost, by its rounding.
+TEST(HeatTicks, of_counts_have_the_end_for_every_multiple_of_5) {
+  for (const double most : {5.0, 10.0, 31.0, 63.0})
+    for (int end = 5; end <= 100'000; end += end < 1000 ? 5 : 5000) {
+      const auto ticks = heat_ticks({.most = most, .counts = true}, static_cast<float>(end / most));
+      ASSERT_EQ(ticks.size(), 6u) << end << " of " << most;
+      EXPECT_EQ(ticks.back().text, std::to_string(end));
+      EXPECT_NEAR(ticks.back().share, 1.0, 1e-5);
+    }
 }
 
 TEST(VisualizerPass, exposes_its_values) { EXPECT_THAT(draw_heat().exposed, ::testing::Contains("heat")); }
