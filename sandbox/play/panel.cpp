@@ -114,10 +114,11 @@ void PlayPanel::show(WindowInput& input, const PanelFrame& frame, PanelContent& 
       .budgets = budgets_.budgets(),
       .set_ms = [this](std::size_t budget, double ms) { budgets_.set_ms(budget, ms); },
       .lock = [this](std::size_t budget, const std::string& knob, bool locked) { budgets_.lock(budget, knob, locked); },
-      .fault = budgets_.fault(),
-      .wipe = controls.wipe,
-      .set_wipe = controls.set_wipe};
-  if (controls.set_wipe) content.budgets = &budgets;
+      .fault = budgets_.fault()};
+  content.budgets = &budgets;
+  if (controls.set_wipe) content.wipe = &controls.wipe;
+  content.set_wipe = controls.set_wipe;
+  content.progress = controls.progress;
   const std::string knobs_before = config_text(session_.renderer->knobs());
   undo(input.panel);
   const Settings before = panel_settings(session_, lights_.controls());

@@ -38,7 +38,8 @@ struct PlayControls {
   std::function<void(const dvec3& position)> fly_to = {};       ///< flies the camera near a position
   std::function<void(const dvec3& direction)> look_along = {};  ///< turns it
   PanelWipe wipe = {};
-  std::function<void(bool on, float at)> set_wipe = {};
+  std::function<void(const PanelWipe&)> set_wipe = {};
+  PanelProgress progress = {};
 };
 
 /// The panel of `play`: shows and hides it, and connects it with the session. Panel and renderer are created when it is
@@ -65,6 +66,8 @@ class PlayPanel {
   void keep_changes(const std::string& scene, LogSink& log);
 
   [[nodiscard]] bool shown() const { return shown_; }
+  /// Whether the panel or the gizmo of a light uses the pointer.
+  [[nodiscard]] bool uses_pointer() const { return drawn_ && (panel_->wants_mouse() || lights_.drags()); }
   /// Changes the factor on the size of text.
   void set_scale(double scale);
   /// The middle of a widget in the last update, in pixels (Panel::widgets); none if it was not shown.

@@ -9,12 +9,14 @@
 #include <system_error>
 #include <utility>
 
+#include "engine/core/text/formatted.h"
 #include "sandbox/output/file_io.h"
+#include "sandbox/play/display/screenshot_path.h"
+#include "sandbox/play/input/dropped_scene.h"
 #include "sandbox/session/drawing/frame_tracing.h"
 #include "sandbox/session/drawing/session_budget.h"
 #include "sandbox/session/loading/scene_loading.h"
 #include "sandbox/session/program_knobs.h"
-#include "sandbox/session/results/heat_fit.h"
 #include "sandbox/session/results/run_output.h"
 
 namespace gloam {
@@ -29,7 +31,7 @@ constexpr std::chrono::milliseconds kLongFrame(400);        // after this the wi
 // Frames after one of full size whose times may still contain it or the change of size.
 constexpr std::uint32_t kUnjudgedAfterFull = gpu::Device::kFramesInFlight + 2;
 constexpr double kKeptPictureS = 0.05;
-constexpr std::uint32_t kFramesBetweenFits = 30;  // a fit waits for a frame
+constexpr double kLineReach = 6.0;  // pixels of a standard display from which the pointer grabs the wipe's line
 
 }  // namespace
 
@@ -44,6 +46,7 @@ Player::Player(const Options& options, Session& session, WindowPictures& picture
       scale_(scale_limits(on_software_).budget_ms, lasting.scale),
       upscaler_(*session.device),
       kept_picture_(*session.device),
+      title_(pictures.window()),
       panel_(session, pictures.window().content_scale(), lasting.panel),
       wipe_(session),
       shaders_(options.shaders),
@@ -57,12 +60,14 @@ Status Player::run() {
   std::uint32_t frames = 0;
   while (options_.frames == 0 || frames < options_.frames) {
     leave_at_signal();
+    note_progress();
     WindowInput input = poll();
     count_step();
     adapt_to_time();
     reload_shaders();
     panel_.set_scale(window.content_scale());
     GLOAM_TRY(panel_.update(input, {window.width(), window.height(), frame_s_}, settings_, scale_, controls()));
+    steer_wipe(input);
     if (window.should_close() || (input.leave && panel_.may_leave(options_.scene))) break;
     keep_settings();
     GLOAM_TRY(obey(input));
@@ -70,7 +75,9 @@ Status Player::run() {
     drop_view_without_its_knob();
     GLOAM_TRY(move_camera(input));
     choose_refinement(input);
-    GLOAM_TRY(choose_heat_range());
+    // A new range would be a new picture.
+    if (refinement_.now() == Refinement::Next::reduced) GLOAM_TRY(heat_.choose(session_, settings_, shown_));
+    choose_readiness();
     const auto drawn = draw();
     if (!drawn) return drawn.error();
     shown_ = *drawn;
@@ -101,7 +108,8 @@ PlayControls Player::controls() {
           .fly_to = [this](const dvec3& position) { fly_to(position); },
           .look_along = [this](const dvec3& direction) { look_along(direction); },
           .wipe = wipe_.shown(),
-          .set_wipe = [this](bool on, float at) { set_wipe(on, at); }};
+          .set_wipe = [this](const PanelWipe& wanted) { set_wipe(wanted); },
+          .progress = progress_};
 }
 
 /// The camera stays on its side of the position, at most kNear away.
@@ -128,13 +136,43 @@ void Player::pause(bool paused) {
   wipe_paused_ = false;
 }
 
-void Player::set_wipe(bool on, float at) {
-  if (on && !wipe_.shown().on && !paused_) {
+void Player::set_wipe(const PanelWipe& wanted) {
+  const bool stands = wanted.on && wanted.side == WipeSide::exact;
+  if (stands && !paused_) {
     pause(true);
     wipe_paused_ = true;
   }
-  if (!on && wipe_paused_) pause(false);
-  wipe_.set(on, at);
+  if (!stands && wipe_paused_) pause(false);
+  wipe_.set(wanted);
+}
+
+/// Drags the wipe's line; Escape ends the wipe.
+void Player::steer_wipe(WindowInput& input) {
+  PanelWipe wipe = wipe_.shown();
+  if (!wipe.on) return;
+  const Window& window = pictures_.window();
+  if (wipe_line_.steer(wipe.at, input, window.width(), !panel_.uses_pointer(), kLineReach * window.content_scale())) {
+    input.drag_x = input.drag_y = 0.0;
+    input.clicked = false;
+    wipe_.set(wipe);
+  }
+  if (!input.leave) return;
+  input.leave = wipe.on = false;
+  set_wipe(wipe);
+}
+
+void Player::note_progress() {
+  const FrameReport report = session_.renderer->report();
+  progress_ = {.name = report.pipeline_made, .left = report.pipelines_pending};
+  progress_.name.resize(std::min(progress_.name.find(' '), progress_.name.size()));  // without its constants
+}
+
+/// The first picture of a scene, of a camera or of changed shaders is whole. After it no frame waits for pipelines:
+/// changed knobs keep their last values until theirs are ready. Measured frames wait.
+void Player::choose_readiness() {
+  const bool measured = options_.frames > 0 || !options_.stats.empty() || !options_.trace.empty();
+  const bool waits = measured || !whole_ || settings_.camera_cut;
+  session_.renderer->set_readiness(waits ? Readiness::wait : Readiness::background);
 }
 
 WindowInput Player::poll() {
@@ -146,10 +184,11 @@ WindowInput Player::poll() {
 
 /// The events that are not the window's are done here.
 void Player::play_script() {
-  const ScriptEvent event = lasting_.script.next([](const std::string& path) {
+  const auto exists = [](const std::string& path) {
     std::error_code fault;
     return std::filesystem::exists(path, fault);
-  });
+  };
+  const ScriptEvent event = lasting_.script.next(exists, progress_.left == 0);
   if (event.kind == ScriptEvent::Kind::say) {
     if (const Status said = write_file(event.text, ""); !said.ok()) log_.warning(said.error().message);
   } else if (event.kind == ScriptEvent::Kind::widget) {
@@ -170,7 +209,7 @@ Status Player::obey(const WindowInput& input) {
   step_once_ = input.step;
   if (input.step) pause(true);
   if (input.camera > 0) show_camera(input.camera);
-  accept(input.dropped);
+  if (std::string scene = dropped_scene(input.dropped, log_); !scene.empty()) next_scene_ = std::move(scene);
   return input.screenshot && shown_ ? save_screenshot() : Status();
 }
 
@@ -192,6 +231,7 @@ void Player::show_camera(std::uint32_t number) {
 /// out/<scene>-NNN.png. A file that cannot be written is a warning.
 Status Player::save_screenshot() {
   session_.set_clock(time_s_, 0.0);
+  session_.renderer->set_readiness(Readiness::wait);
   std::vector<FrameSample> samples;
   const auto draw_whole = [&]() -> Status {
     auto sample = session_.render_frame({.settings = settings_, .target = {}});
@@ -200,32 +240,12 @@ Status Player::save_screenshot() {
     return {};
   };
   GLOAM_TRY(run_beside(draw_whole));
-  std::string path;
-  std::error_code fault;
-  for (int number = 1; path.empty() || std::filesystem::exists(path, fault); ++number) {
-    const std::string digits = std::to_string(number);
-    path = "out/" + scene_stem(options_.scene) + "-" + std::string(3 - std::min<std::size_t>(3, digits.size()), '0') +
-           digits + ".png";
-  }
+  const std::string path = screenshot_path(options_.scene);
   const Status written = write_picture({.session = session_, .view = settings_, .samples = samples}, path);
   if (!written.ok()) log_.warning(written.error().message);
-  pictures_.window().set_title(written.ok() ? "gloam: wrote " + path : "gloam: " + options_.scene);
+  if (written.ok()) title_.say("gloam: wrote " + path);
   drawn_scale_ = 1.0;
   return {};
-}
-
-/// The last of the dropped files that is a scene is shown next.
-void Player::accept(const std::vector<std::string>& dropped) {
-  for (const std::string& path : dropped) {
-    const bool scene = path.ends_with(".gltf") || path.ends_with(".glb");
-    const Status exists =
-        scene ? check_scene_exists(path) : Status(Error{ErrorKind::input, path + ": is no scene: .gltf or .glb"});
-    if (!exists.ok()) {
-      log_.warning(exists.error().message);
-      continue;
-    }
-    next_scene_ = path;
-  }
 }
 
 /// A changed knob may make the visualizer unavailable. Then warn, return to the lit picture and go on.
@@ -236,28 +256,6 @@ void Player::drop_view_without_its_knob() {
   if (shows.ok()) return;
   log_.warning(shows.error().message);
   settings_.visualizer = "none";
-}
-
-/// With views.range=fit the scale follows the picture: at once after a change of the view, then now and then.
-Status Player::choose_heat_range() {
-  if (refinement_.now() != Refinement::Next::reduced) return {};  // a new range would be a new picture
-  Renderer& renderer = *session_.renderer;
-  const std::string& shown = settings_.visualizer;
-  if (!fits_heat_range(renderer.knobs()) || !shows_heat(renderer, shown)) {
-    settings_.heat_range = heat_range(renderer.knobs());
-    fitted_view_.clear();
-    return {};
-  }
-  if (fitted_view_ != shown) {
-    fitted_view_ = shown;
-    frames_to_fit_ = 1;
-  } else if (shown_ && frames_to_fit_-- == 0) {
-    frames_to_fit_ = kFramesBetweenFits;
-    const auto range = fitting_heat_range(session_, settings_);
-    if (!range) return range.error();
-    settings_.heat_range = *range;
-  }
-  return {};
 }
 
 void Player::count_step() {
@@ -306,14 +304,17 @@ void Player::choose_refinement(const WindowInput& input) {
   const bool moves = !stands && scene_moves(session_);
   // A chosen scale stays, as does that of a budget, whose setting the window shows; and so do measured runs.
   const bool wanted = scale_.setting() == 0.0 && !options_.budget_ms && options_.frames == 0;
-  if (!wanted || moves || wipe_.shown().on || moving_scale() == 1.0) return refinement_.restart();
+  if (!wanted || moves || wipe_.on() || moving_scale() == 1.0) return refinement_.restart();
   PictureMoment moment = picture_moment(session_, settings_, stands ? time_s_ : 0.0);
   moment.numbers.push_back(static_cast<double>(reloads_));
+  moment.numbers.push_back(progress_.left > 0 ? 1.0
+                                              : 0.0);  // effects may be left out, and knobs have their last values
   if (refinement_.next(moment, frame_s_, active_) != Refinement::Next::reduced) unjudged_ = kUnjudgedAfterFull;
 }
 
 std::string Player::scale_note() const {
   if (moving_scale() == 1.0) return {};
+  if (wipe_.on()) return "both sides of the wipe have this scale, also at rest";
   if (options_.budget_ms) return "the budget chooses the scale, also at rest";
   if (scale_.setting() > 0.0) return {};
   if (refinement_.now() != Refinement::Next::reduced)
@@ -335,6 +336,7 @@ void Player::reload_shaders() {
   }
   if (!fault.empty()) log_.warning(fault);
   ++reloads_;
+  whole_ = false;
   panel_.tell(fault.empty() ? std::to_string(count) + (count == 1 ? " shader" : " shaders") + " compiled again" : fault,
               !fault.empty());
 }
@@ -368,6 +370,7 @@ Result<bool> Player::draw() {
     if (refinement_.now() == Refinement::Next::full) refinement_.shown_full();
     time_s_ += dt_s;
     step_once_ = settings_.camera_cut = false;
+    whole_ = true;
   }
   return shown;
 }
@@ -375,9 +378,14 @@ Result<bool> Player::draw() {
 Status Player::run_beside(std::function<Status()> work) {
   const auto since = std::chrono::steady_clock::now();
   const Status done = beside_.run(std::move(work), [&] { answer(since); });
-  if (!title_.empty()) pictures_.window().set_title("gloam: " + options_.scene);
-  title_.clear();
+  title_.rest(usual_title());
   return done;
+}
+
+std::string Player::usual_title() const {
+  if (progress_.left > 0) return formatted("gloam: compiling %s, %zu left", progress_.name.c_str(), progress_.left);
+  const PanelWipe wipe = wipe_.shown();
+  return "gloam: " + options_.scene + (wipe.on ? std::string(", wipe: now | ") + name_of(wipe.side) : "");
 }
 
 void Player::answer(std::chrono::steady_clock::time_point since) {
@@ -392,15 +400,9 @@ void Player::answer(std::chrono::steady_clock::time_point since) {
   }
   if (now - since < kLongFrame) return;
   const PipelineProgress::State compiled = session_.pipelines.state();
-  std::string title = "gloam: ";
-  if (compiled.total == 0)
-    title += "drawing";
-  else
-    title += "compiling " + compiled.name + ", " + std::to_string(compiled.done + 1) + " of " +
-             std::to_string(compiled.total);
-  if (title == title_) return;
-  title_ = std::move(title);
-  window.set_title(title_);
+  title_.busy(compiled.total == 0 ? "gloam: drawing"
+                                  : formatted("gloam: compiling %s, %zu of %zu", compiled.name.c_str(),
+                                              compiled.done + 1, compiled.total));
 }
 
 void Player::leave_at_signal() {
@@ -466,7 +468,6 @@ Status Player::add_overlays(FrameGraph& graph, ImageRef& window) {
   return panel ? panel(graph, window) : Status();
 }
 
-/// Runs of a number of frames are measured.
 Status Player::count_shown(bool first) {
   if (options_.frames == 0) return {};
   if (first) GLOAM_TRY(session_.renderer->wait());
@@ -475,13 +476,14 @@ Status Player::count_shown(bool first) {
   return {};
 }
 
-/// Waits for the frame only if its times are needed (--stats, --trace). A frame that also draws the exact picture of
+/// Waits for the frame only if its times are needed (--stats, --trace). A frame that also draws the right side of
 /// the wipe has no sample.
 Status Player::render(const ViewRequest& request) {
-  const auto exact = wipe_.due(settings_, time_s_, scale_.scale(), frame_s_);
-  if (!exact) return exact.error();
-  if (*exact) {
-    GLOAM_TRY(session_.renderer->render(session_.world, std::array{**exact, request}));
+  const double time_s = wipe_.on() && scene_moves(session_) ? time_s_ : 0.0;
+  const auto right = wipe_.due(settings_, time_s, moving_scale(), frame_s_);
+  if (!right) return right.error();
+  if (*right) {
+    GLOAM_TRY(session_.renderer->render(session_.world, std::array{**right, request}));
     wipe_.drawn();
     return {};
   }

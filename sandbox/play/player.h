@@ -13,18 +13,21 @@
 #include "engine/core/result.h"
 #include "sandbox/options.h"
 #include "sandbox/output/frame_sample.h"
-#include "sandbox/play/budget/wipe.h"
+#include "sandbox/play/display/heat_follower.h"
 #include "sandbox/play/display/kept_picture.h"
 #include "sandbox/play/display/refinement.h"
 #include "sandbox/play/display/resolution_scale.h"
 #include "sandbox/play/display/upscaler.h"
 #include "sandbox/play/display/window_pictures.h"
+#include "sandbox/play/display/window_title.h"
 #include "sandbox/play/figures.h"
 #include "sandbox/play/input/orbit_controls.h"
 #include "sandbox/play/panel.h"
 #include "sandbox/play/shader_reload.h"
 #include "sandbox/play/start/interrupts.h"
 #include "sandbox/play/start/work_beside.h"
+#include "sandbox/play/wipe/wipe.h"
+#include "sandbox/play/wipe/wipe_line.h"
 #include "sandbox/session/session.h"
 #include "sandbox/window/fly_camera.h"
 #include "sandbox/window/input_script.h"
@@ -68,12 +71,14 @@ class Player {
   void look_along(const dvec3& direction);
   [[nodiscard]] dvec3 eye() const;
   void pause(bool paused);
-  /// The wipe compares pictures of one moment, so it pauses the scene.
-  void set_wipe(bool on, float at);
+  /// The exact side of a wipe takes long, and both sides show one moment, so it pauses the scene.
+  void set_wipe(const PanelWipe& wanted);
+  void steer_wipe(WindowInput& input);
+  /// Notes which pipelines are compiled in the background.
+  void note_progress();
+  void choose_readiness();
   [[nodiscard]] Status save_screenshot();
-  void accept(const std::vector<std::string>& dropped);
   void drop_view_without_its_knob();
-  [[nodiscard]] Status choose_heat_range();
   void count_step();
   [[nodiscard]] Status move_camera(const WindowInput& input);
   /// Tells the budget, or else the automatic scale, how long the frame took.
@@ -91,13 +96,14 @@ class Player {
   [[nodiscard]] Status run_beside(std::function<Status()> work);
   /// Handles what cannot wait for the frame: full screen, closing, signals. since: begin of the frame.
   void answer(std::chrono::steady_clock::time_point since);
+  [[nodiscard]] std::string usual_title() const;
   void leave_at_signal();
   [[noreturn]] void leave(int code);
   [[nodiscard]] bool leaves_results() const;
   [[nodiscard]] Result<ViewRequest> request();
   [[nodiscard]] Status show_again();
   [[nodiscard]] Status show_enlarged(FrameGraph& graph, ImageRef picture);
-  /// The exact side of the wipe, and the panel over it.
+  /// The right side of the wipe, and the panel over it.
   [[nodiscard]] Status add_overlays(FrameGraph& graph, ImageRef& window);
   [[nodiscard]] Status render(const ViewRequest& request);
   [[nodiscard]] Status count_shown(bool first);
@@ -121,8 +127,10 @@ class Player {
   std::uint64_t reloads_ = 0;    ///< of shaders
   PanelInput last_panel_input_;  ///< of the last frame
   bool active_ = false;          ///< the input has changed since then
+  WindowTitle title_;
   PlayPanel panel_;
   Wipe wipe_;
+  WipeLine wipe_line_;
   bool wipe_paused_ = false;  ///< the wipe has paused the scene
   ShaderReload shaders_;
   std::vector<FrameSample> samples_;
@@ -134,11 +142,11 @@ class Player {
   bool step_once_ = false;
   std::string next_scene_;
   bool shown_ = false;  ///< the last turn showed a picture
-  std::string title_;   ///< of the window while a frame takes long; empty: its usual one
+  bool whole_ = false;  ///< a picture with all effects was shown
+  PanelProgress progress_;
   std::optional<std::chrono::steady_clock::time_point> closed_;  ///< when the user closed the window
   WorkBeside beside_;
-  std::string fitted_view_;          ///< the visualizer that views.range=fit is at; empty: none
-  std::uint32_t frames_to_fit_ = 0;  ///< before its range is chosen
+  HeatFollower heat_;
 };
 
 }  // namespace gloam

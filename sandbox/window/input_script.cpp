@@ -7,12 +7,14 @@
 #include <optional>
 #include <utility>
 
+#include "sandbox/window/gamepad.h"
+
 namespace gloam {
 namespace {
 
 using Kind = ScriptEvent::Kind;
 
-enum class Arguments : std::uint8_t { none, number, steps, point, text };
+enum class Arguments : std::uint8_t { none, number, steps, point, text, named_number };
 
 struct EventName {
   std::string_view name;
@@ -20,27 +22,17 @@ struct EventName {
   Arguments arguments;
 };
 constexpr EventName kNames[] = {
-    {"wait", Kind::wait, Arguments::number},
-    {"key", Kind::key, Arguments::text},
-    {"hold", Kind::hold, Arguments::text},
-    {"release", Kind::release, Arguments::text},
-    {"move", Kind::move, Arguments::point},
-    {"press", Kind::press, Arguments::none},
-    {"lift", Kind::lift, Arguments::none},
-    {"grab", Kind::grab, Arguments::none},
-    {"let_go", Kind::let_go, Arguments::none},
-    {"widget", Kind::widget, Arguments::text},
-    {"scroll", Kind::scroll, Arguments::steps},
-    {"type", Kind::type, Arguments::text},
-    {"resize", Kind::resize, Arguments::point},
-    {"minimise", Kind::minimise, Arguments::none},
-    {"restore", Kind::restore, Arguments::none},
-    {"drop", Kind::drop, Arguments::text},
-    {"say", Kind::say, Arguments::text},
-    {"until", Kind::until, Arguments::text},
-    {"close", Kind::close, Arguments::none},
-    {"click", Kind::move, Arguments::point},
-    {"click_widget", Kind::widget, Arguments::text},
+    {"wait", Kind::wait, Arguments::number},     {"key", Kind::key, Arguments::text},
+    {"hold", Kind::hold, Arguments::text},       {"release", Kind::release, Arguments::text},
+    {"move", Kind::move, Arguments::point},      {"press", Kind::press, Arguments::none},
+    {"lift", Kind::lift, Arguments::none},       {"grab", Kind::grab, Arguments::none},
+    {"let_go", Kind::let_go, Arguments::none},   {"widget", Kind::widget, Arguments::text},
+    {"scroll", Kind::scroll, Arguments::steps},  {"type", Kind::type, Arguments::text},
+    {"resize", Kind::resize, Arguments::point},  {"minimise", Kind::minimise, Arguments::none},
+    {"restore", Kind::restore, Arguments::none}, {"pad", Kind::pad, Arguments::named_number},
+    {"drop", Kind::drop, Arguments::text},       {"say", Kind::say, Arguments::text},
+    {"until", Kind::until, Arguments::text},     {"close", Kind::close, Arguments::none},
+    {"click", Kind::move, Arguments::point},     {"click_widget", Kind::widget, Arguments::text},
 };
 
 std::string_view trimmed(std::string_view text) {
@@ -65,7 +57,13 @@ bool read_arguments(std::string_view text, Arguments arguments, ScriptEvent& eve
     event.text = trimmed(text);
     return !event.text.empty();
   }
-  if (arguments == Arguments::number || arguments == Arguments::point) {
+  if (arguments == Arguments::named_number) {
+    text = trimmed(text);
+    event.text = text.substr(0, text.find(' '));
+    text.remove_prefix(event.text.size());
+    if (!Gamepad().set(event.text, 0.0f)) return false;
+  }
+  if (arguments == Arguments::number || arguments == Arguments::point || arguments == Arguments::named_number) {
     const auto x = take_number(text);
     if (!x) return false;
     event.x = *x;

@@ -30,6 +30,7 @@ struct ScriptEvent {
     resize,    ///< the window to x, y pixels
     minimise,  ///< as if the window had no size
     restore,
+    pad,    ///< text: an axis or bumper of a gamepad (Gamepad), x: its value from now on
     drop,   ///< text: path of a file that is dropped onto the window
     say,    ///< creates the file `text`: tells a test how far the script is
     until,  ///< waits until the file `text` exists
@@ -45,7 +46,8 @@ struct ScriptEvent {
 /// name of its kind and its arguments; `click X Y` and `click_widget NAME` stand for a movement, a press and a lift.
 /// Empty lines and lines that begin with # are left out. Each event takes one frame.
 ///
-/// Keys are named a…z, 0…9, escape, tab, space, enter, period, left_shift, f1…f12.
+/// Keys are named a…z, 0…9, escape, tab, space, enter, period, left_shift,
+/// left_control, f1…f12.
 class InputScript {
  public:
   InputScript() = default;
@@ -53,11 +55,13 @@ class InputScript {
   [[nodiscard]] static Result<InputScript> parse(std::string_view text, std::string_view source);
 
   /// The event of the next frame; `wait` if there is none. file_exists: whether the file of the event `until`, which is
-  /// then repeated, exists.
+  /// then repeated, exists. settled: the last frame shows all that the user has changed; other frames do not count for
+  /// `wait`.
   template <class Exists>
-  [[nodiscard]] ScriptEvent next(const Exists& file_exists) {
+  [[nodiscard]] ScriptEvent next(const Exists& file_exists, bool settled = true) {
     if (at_ == events_.size()) return {};
     const ScriptEvent& event = events_[at_];
+    if (event.kind == ScriptEvent::Kind::wait && !settled) return event;
     if (event.kind == ScriptEvent::Kind::wait && waited_ + 1.0 < event.x) {
       waited_ += 1.0;
       return event;

@@ -10,8 +10,6 @@
 
 #include "engine/core/text/formatted.h"
 #include "engine/render/passes/visualizer_pass.h"
-#include "sandbox/session/program_knobs.h"
-#include "shaders/common/heat_shared.h"
 
 namespace gloam {
 namespace {
@@ -31,8 +29,6 @@ void show_tooltip(const std::string& text) {
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
 }
-
-std::string stem_of(const std::string& visualizer) { return visualizer.substr(0, visualizer.find(':')); }
 
 /// What a budget does with a knob, for its tooltip. knob: null if no budget names it.
 std::string budget_note(const PanelBudgetKnob* knob) {
@@ -120,6 +116,22 @@ void show_modules(std::span<const ModuleState> modules) {
   ImGui::EndTable();
 }
 
+/// A line at the lower right corner, over everything: a line in the panel would move the widgets below it.
+void draw_progress(const PanelProgress& progress, const PanelFrame& frame) {
+  if (progress.left == 0) return;
+  const std::string text = "compiling " + progress.name +
+                           (progress.left > 1 ? formatted(", %zu left", progress.left) : "") +
+                           "; meanwhile the picture keeps the last settings";
+  const float font = ImGui::GetFontSize();
+  const auto right = static_cast<float>(frame.width), bottom = static_cast<float>(frame.height);
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, 0.7f * right);
+  const ImVec2 from(right - size.x - 1.5f * font, bottom - size.y - 1.5f * font);
+  ImDrawList& list = *ImGui::GetForegroundDrawList();
+  list.AddRectFilled(ImVec2(from.x - 0.5f * font, from.y - 0.5f * font), ImVec2(right - font, bottom - font),
+                     IM_COL32(20, 20, 20, 220), 0.3f * font);
+  list.AddText(ImGui::GetFont(), font, from, IM_COL32(255, 220, 120, 255), text.c_str(), nullptr, 0.7f * right);
+}
+
 /// Marks lie below all windows.
 void draw_marks(std::span<const PanelMark> marks, float scale) {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
@@ -171,6 +183,7 @@ void Panel::update(const PanelInput& input, const PanelFrame& frame, const Panel
     show_scale(content, frame);
     if (content.budgets != nullptr) show_budgets(*content.budgets);
     show_settings(content);
+    if (content.wipe != nullptr) show_wipe(content);
     show_views(content);
     if (content.scene != nullptr) {
       show_scene(*content.scene);
@@ -184,6 +197,7 @@ void Panel::update(const PanelInput& input, const PanelFrame& frame, const Panel
   }
   ImGui::End();
   draw_marks(content.marks, gui_.scale());
+  draw_progress(content.progress, frame);
   gui_.end();
 }
 
@@ -234,77 +248,6 @@ void Panel::show_scale_choice(const PanelContent& content) {
     remember_widget("scale " + name);
   }
   end_list();
-}
-
-void Panel::show_views(const PanelContent& content) {
-  if (!ImGui::CollapsingHeader("View", ImGuiTreeNodeFlags_DefaultOpen)) return;
-  const std::string current = asked_.empty() ? stem_of(content.visualizer) : asked_;
-  const VisualizerInfo* shown = nullptr;
-  for (const VisualizerInfo& info : content.visualizers)
-    if (info.name == current) shown = &info;
-  ImGui::SetNextItemWidth(-1.0f);
-  const bool open = ImGui::BeginCombo("##view", current.c_str(), ImGuiComboFlags_HeightLarge);
-  remember_widget("view");
-  if (open) {
-    for (const VisualizerInfo& info : content.visualizers) {
-      const bool chosen = ImGui::Selectable(info.name.c_str(), info.name == current);
-      remember_widget("view " + info.name);
-      show_tooltip(info.legend);
-      if (!chosen) continue;
-      fault_.clear();
-      asked_ = info.argument.empty() ? "" : info.name;
-      if (!info.argument.empty()) continue;
-      if (const Status status = content.show(info.name); !status.ok()) fault_ = status.error().message;
-    }
-    end_list();
-  }
-  if (shown != nullptr && !shown->argument.empty()) show_view_argument(content, *shown);
-  if (!fault_.empty()) ImGui::TextWrapped("%s", fault_.c_str());
-  if (shown == nullptr) return;
-  ImGui::TextWrapped("%s", shown->legend.c_str());
-  if (shown->heat.most > 0.0) show_heat_scale(content, shown->heat);
-}
-
-/// A bar of the scale's colours with its values, and the knob of its range.
-void Panel::show_heat_scale(const PanelContent& content, const HeatScale& heat) {
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float width = ImGui::GetContentRegionAvail().x, height = 0.6f * ImGui::GetFontSize();
-  const auto color_of = [](int stop) {
-    const vec3 c = glm::pow(heat_color(static_cast<double>(stop) / (GLOAM_HEAT_STOPS - 1)), vec3(1.0f / 2.2f));
-    return ImGui::GetColorU32(ImVec4(c.r, c.g, c.b, 1.0f));
-  };
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  for (int stop = 0; stop < GLOAM_HEAT_STOPS; ++stop) {
-    const float left = at.x + width * static_cast<float>(stop) / (GLOAM_HEAT_STOPS - 1);
-    const float right = at.x + width * static_cast<float>(stop + 1) / (GLOAM_HEAT_STOPS - 1);
-    if (stop + 1 < GLOAM_HEAT_STOPS)
-      draw.AddRectFilledMultiColor(ImVec2(left, at.y), ImVec2(right, at.y + height), color_of(stop), color_of(stop + 1),
-                                   color_of(stop + 1), color_of(stop));
-    std::string number = heat_number(heat_value(heat, content.heat_range, stop));
-    if (stop + 1 == GLOAM_HEAT_STOPS && !heat.unit.empty()) number += " " + heat.unit;
-    const float wide = ImGui::CalcTextSize(number.c_str()).x;
-    const float shift = stop == 0 ? 0.0f : stop + 1 == GLOAM_HEAT_STOPS ? wide : 0.5f * wide;
-    draw.AddText(ImVec2(left - shift, at.y + height), ImGui::GetColorU32(ImGuiCol_Text), number.c_str());
-  }
-  ImGui::Dummy(ImVec2(width, height + ImGui::GetTextLineHeightWithSpacing()));
-  const Knob* range = content.knobs.find(kHeatRange.name);
-  if (range == nullptr || !ImGui::BeginTable("range", 3, ImGuiTableFlags_SizingFixedFit)) return;
-  ImGui::TableSetupColumn("name");
-  ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);
-  show_knob(content, *range);
-  ImGui::EndTable();
-}
-
-void Panel::show_view_argument(const PanelContent& content, const VisualizerInfo& info) {
-  ImGui::SetNextItemWidth(-1.0f);
-  const bool entered =
-      ImGui::InputTextWithHint("##argument", info.argument.c_str(), &argument_, ImGuiInputTextFlags_EnterReturnsTrue);
-  remember_widget("view argument");
-  if (entered) {
-    const Status status = content.show(info.name + ":" + argument_);
-    fault_ = status.ok() ? "" : status.error().message;
-    if (status.ok()) asked_.clear();
-  }
 }
 
 void Panel::show_knobs(const PanelContent& content) {

@@ -16,6 +16,7 @@
 #include "sandbox/window/panel_mark.h"
 #include "sandbox/window/panel_model.h"
 #include "sandbox/window/panel_scene.h"
+#include "sandbox/window/panel_wipe.h"
 
 namespace gloam {
 
@@ -23,6 +24,12 @@ namespace gloam {
 struct PanelNotice {
   std::string text;
   bool is_error = false;
+};
+
+/// Pipelines that are compiled while frames are drawn; nothing is shown if none is left.
+struct PanelProgress {
+  std::string name;      ///< of the one that is being compiled
+  std::size_t left = 0;  ///< with that one
 };
 
 /// The data that one frame of the panel shows and may change.
@@ -38,22 +45,26 @@ struct PanelContent {
   std::string scale_note = {};  ///< why the scale is as it is; empty: no note
   double scale_setting = 1.0;   ///< 0: automatic
   std::span<const double> scale_steps = {};
-  std::function<void(double setting)> set_scale = {};  ///< empty: the scale is shown only
-  const PanelScene* scene = nullptr;                   ///< null: not shown
-  const PanelBudgets* budgets = nullptr;               ///< null: not shown
+  std::function<void(double setting)> set_scale = {};   ///< empty: the scale is shown only
+  const PanelScene* scene = nullptr;                    ///< null: not shown
+  const PanelBudgets* budgets = nullptr;                ///< null: not shown
+  const PanelWipe* wipe = nullptr;                      ///< null: not offered
+  std::function<void(const PanelWipe&)> set_wipe = {};  ///< set with `wipe`
   PanelNotice notice = {};
+  PanelProgress progress = {};
   float heat_range = 1.0f;  ///< ViewSettings::heat_range
   std::vector<PanelMark> marks = {};
 };
 
 /// Rectangle of a widget in the last frame, in pixels from the picture's upper left corner.
 struct PanelWidget {
-  /// "knobs MODULE", KNOB, "KNOB reset", "KNOB CHOICE", "search", "view", "view VISUALIZER", "view argument", "scale",
-  /// "scale auto", "scale NN %", "camera", "camera NAME", "warning", "pause", "exposure auto", "exposure", "lens",
-  /// "lens here", "lens focus", "lens f-number", "pixel", "pixel lists", "lights", "lights by share", "lights search",
-  /// "save lights", LIGHT, "LIGHT color", "LIGHT mute", "LIGHT solo", "LIGHT intensity", "light locate", "light
-  /// shadows", "light cookie", "light range", "light width", "keep A", "show A", "keep B", "show B", "save config",
-  /// "copy command", "budget section", "budget", "budget EFFECT", "lock KNOB", "wipe" or "wipe line"
+  /// "knobs MODULE", KNOB, "KNOB reset", "KNOB CHOICE", "search", "view", "view VISUALIZER", "other views", "view
+  /// argument", "scale", "scale auto", "scale NN %", "camera", "camera NAME", "warning", "pause", "exposure auto",
+  /// "exposure", "lens", "lens here", "lens focus", "lens f-number", "pixel", "pixel lists", "lights", "lights by
+  /// share", "lights search", "save lights", LIGHT, "LIGHT color", "LIGHT mute", "LIGHT solo", "LIGHT intensity",
+  /// "light locate", "light shadows", "light cookie", "light range", "light width", "keep A", "show A", "keep B", "show
+  /// B", "save config", "copy command", "budget section", "budget", "budget EFFECT", "lock KNOB", "wipe", "wipe side",
+  /// "wipe side SIDE" or "wipe line"
   std::string name;
   float left = 0.0f;
   float top = 0.0f;
@@ -84,6 +95,8 @@ class Panel {
   void show_scale(const PanelContent& content, const PanelFrame& frame);
   void show_scale_choice(const PanelContent& content);
   void show_views(const PanelContent& content);
+  void show_view_list(const PanelContent& content, const std::string& current);
+  void show_view_choice(const PanelContent& content, const VisualizerInfo& info, const std::string& current);
   void show_heat_scale(const PanelContent& content, const HeatScale& heat);
   void show_view_argument(const PanelContent& content, const VisualizerInfo& info);
   void show_settings(const PanelContent& content);
@@ -97,7 +110,10 @@ class Panel {
   void show_budgets(const PanelBudgets& budgets);
   void show_budget(const PanelBudgets& budgets, std::size_t index);
   void show_budget_knobs(const PanelBudgets& budgets, std::size_t index);
-  void show_wipe(const PanelBudgets& budgets);
+  [[nodiscard]] bool offers(const PanelContent& content, WipeSide side) const;
+  /// The wipe with another right side.
+  [[nodiscard]] PanelWipe wipe_of(const PanelWipe& now, WipeSide side) const;
+  void show_wipe(const PanelContent& content);
   void show_knobs(const PanelContent& content);
   [[nodiscard]] bool begin_knob_group(const KnobGroup& group);
   void show_knob_group(const PanelContent& content, const KnobGroup& group);
@@ -114,7 +130,8 @@ class Panel {
   bool lights_by_share_ = false;
   std::size_t selected_light_ = kNoLight;
   KnobSlots slots_;
-  std::string fault_;  ///< error of the last chosen visualizer; empty: none
+  WipeSide wipe_side_ = WipeSide::exact;  ///< chosen last
+  std::string fault_;                     ///< error of the last chosen visualizer; empty: none
 };
 
 }  // namespace gloam

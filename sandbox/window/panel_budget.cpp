@@ -43,7 +43,6 @@ void Panel::show_budgets(const PanelBudgets& budgets) {
     ImGui::PopID();
   }
   if (!budgets.fault.empty()) ImGui::TextWrapped("%s", budgets.fault.c_str());
-  show_wipe(budgets);
 }
 
 void Panel::show_budget(const PanelBudgets& budgets, std::size_t index) {
@@ -94,21 +93,6 @@ void Panel::show_budget_knobs(const PanelBudgets& budgets, std::size_t index) {
     ImGui::PopID();
   }
   ImGui::EndTable();
-}
-
-void Panel::show_wipe(const PanelBudgets& budgets) {
-  bool on = budgets.wipe.on;
-  float at = budgets.wipe.at;
-  if (ImGui::Checkbox("wipe: now | exact", &on)) budgets.set_wipe(on, at);
-  remember_widget("wipe");
-  if (ImGui::IsItemHovered())
-    ImGui::SetTooltip("left of the line: now; right of it: the most exact setting. It pauses the scene.");
-  if (!budgets.wipe.on) return;
-  ImGui::SetNextItemWidth(-1.0f);
-  if (ImGui::SliderFloat("##wipe", &at, 0.0f, 1.0f, "line at %.2f", ImGuiSliderFlags_AlwaysClamp))
-    budgets.set_wipe(on, at);
-  remember_widget("wipe line");
-  show_wrapped(budgets.wipe.note);
 }
 
 }  // namespace gloam

@@ -33,13 +33,6 @@ struct PanelBudget {
   std::vector<PanelBudgetKnob> knobs;
 };
 
-/// The picture now beside the exact picture, with a line between them.
-struct PanelWipe {
-  bool on = false;
-  float at = 0.5f;   ///< of the picture's width; the exact picture is to the right
-  std::string note;  ///< what the exact side shows, if it is not the exact picture of now
-};
-
 /// Facts about the budgets that the panel shows, and functions that carry out the user's changes. All functions are
 /// set. Without a budget there is no section.
 struct PanelBudgets {
@@ -47,8 +40,6 @@ struct PanelBudgets {
   std::function<void(std::size_t budget, double ms)> set_ms;
   std::function<void(std::size_t budget, const std::string& knob, bool locked)> lock;
   std::string fault;  ///< why the last change was refused; empty: it was not
-  PanelWipe wipe;
-  std::function<void(bool on, float at)> set_wipe;
 
   /// None if no budget names the knob.
   [[nodiscard]] const PanelBudgetKnob* find(std::string_view knob) const;

@@ -125,6 +125,12 @@ void KnobSlots::keep(const KnobRegistry& registry, std::size_t slot) {
   for (const Knob& knob : registry.knobs()) slots_[slot][knob.name] = registry.text(knob);
 }
 
+std::vector<KnobOverride> KnobSlots::kept(std::size_t slot) const {
+  std::vector<KnobOverride> values;
+  for (const auto& [name, value] : slots_[slot]) values.push_back({name, value});
+  return values;
+}
+
 void KnobSlots::show(KnobRegistry& registry, std::size_t slot) const {
   for (const auto& [name, value] : slots_[slot]) {
     const Knob* knob = registry.find(name);
@@ -132,6 +138,22 @@ void KnobSlots::show(KnobRegistry& registry, std::size_t slot) const {
     const Status set = registry.set(name, value);
     GLOAM_ASSERT(set.ok(), "a knob takes a value that it had");
   }
+}
+
+ViewGroups view_groups(std::span<const VisualizerInfo> views, std::span<const ModuleState> modules) {
+  ViewGroups groups;
+  for (const VisualizerInfo& view : views) {
+    const auto module = std::ranges::find(modules, view.module, &ModuleState::name);
+    if (module == modules.end() || module->demanded) {
+      groups.called_for.push_back(&view);
+      continue;
+    }
+    auto idle = std::ranges::find(groups.others, view.module, &IdleViews::module);
+    if (idle == groups.others.end())
+      idle = groups.others.insert(groups.others.end(), {.module = view.module, .reason = module->reason, .views = {}});
+    idle->views.push_back(&view);
+  }
+  return groups;
 }
 
 std::string scale_text(double setting, double scale) {

@@ -62,6 +62,8 @@ class KnobSlots {
   static constexpr std::size_t kSlots = 2;
   void keep(const KnobRegistry& registry, std::size_t slot);
   [[nodiscard]] bool has(std::size_t slot) const { return !slots_[slot].empty(); }
+  /// The value of each knob; empty if nothing was kept.
+  [[nodiscard]] std::vector<KnobOverride> kept(std::size_t slot) const;
   /// Sets the knobs to what was kept.
   void show(KnobRegistry& registry, std::size_t slot) const;
 
@@ -71,6 +73,20 @@ class KnobSlots {
 
 /// "42 %", or "auto (42 %)" if the setting is 0. scale: of the last frame.
 [[nodiscard]] std::string scale_text(double setting, double scale);
+
+/// The views of a module that the scene does not call for.
+struct IdleViews {
+  std::string module;
+  std::string reason;  ///< why it is not called for
+  std::vector<const VisualizerInfo*> views;
+};
+/// All views: those of modules that the scene calls for, in the order given, and the others by module.
+struct ViewGroups {
+  std::vector<const VisualizerInfo*> called_for;
+  std::vector<IdleViews> others;
+};
+/// A module that `modules` does not name counts as called for. The result points into `views`.
+[[nodiscard]] ViewGroups view_groups(std::span<const VisualizerInfo> views, std::span<const ModuleState> modules);
 
 /// Time of a system in a frame, all its calls added.
 struct SystemTime {

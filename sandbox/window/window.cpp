@@ -7,13 +7,13 @@
 
 #include <algorithm>
 #include <bitset>
-#include <cmath>
 #include <iterator>
 #include <optional>
 #include <tuple>
 #include <utility>
 
 #include "sandbox/console.h"
+#include "sandbox/window/gamepad.h"
 
 // GLFW declares this only after Vulkan's headers, which only engine/gpu includes. These types have the size of the
 // handles.
@@ -60,6 +60,7 @@ struct Scripted {
   bool right = false;
   bool minimised = false;
   std::optional<std::pair<double, double>> pointer;
+  Gamepad pad;
 };
 
 namespace {
@@ -81,32 +82,15 @@ void listen(GLFWwindow* window, Strikes& strikes) {
   });
 }
 
-/// Sticks rest a little off their middle.
-double stick(float value) {
-  constexpr double kRest = 0.15;
-  const double size = std::abs(static_cast<double>(value));
-  return size <= kRest ? 0.0 : std::copysign((size - kRest) / (1.0 - kRest), static_cast<double>(value));
-}
-
-void add_gamepad(WindowInput& input) {
-  GLFWgamepadstate pad;
-  if (glfwGetGamepadState(GLFW_JOYSTICK_1, &pad) == GLFW_FALSE) return;
-  input.right += stick(pad.axes[GLFW_GAMEPAD_AXIS_LEFT_X]);
-  input.forward -= stick(pad.axes[GLFW_GAMEPAD_AXIS_LEFT_Y]);
-  input.turn = -stick(pad.axes[GLFW_GAMEPAD_AXIS_RIGHT_X]);
-  input.tilt = -stick(pad.axes[GLFW_GAMEPAD_AXIS_RIGHT_Y]);
-  // Triggers rest at −1.
-  input.up +=
-      0.5 * static_cast<double>(pad.axes[GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER] - pad.axes[GLFW_GAMEPAD_AXIS_LEFT_TRIGGER]);
-  input.fast |= pad.buttons[GLFW_GAMEPAD_BUTTON_LEFT_BUMPER] == GLFW_PRESS ||
-                pad.buttons[GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER] == GLFW_PRESS;
-}
-
 /// GLFW's number of a key of InputScript; GLFW_KEY_UNKNOWN for other names.
 int script_key(const std::string& name) {
-  constexpr std::pair<std::string_view, int> kNamed[] = {
-      {"escape", GLFW_KEY_ESCAPE}, {"tab", GLFW_KEY_TAB},       {"space", GLFW_KEY_SPACE},
-      {"enter", GLFW_KEY_ENTER},   {"period", GLFW_KEY_PERIOD}, {"left_shift", GLFW_KEY_LEFT_SHIFT}};
+  constexpr std::pair<std::string_view, int> kNamed[] = {{"escape", GLFW_KEY_ESCAPE},
+                                                         {"tab", GLFW_KEY_TAB},
+                                                         {"space", GLFW_KEY_SPACE},
+                                                         {"enter", GLFW_KEY_ENTER},
+                                                         {"period", GLFW_KEY_PERIOD},
+                                                         {"left_shift", GLFW_KEY_LEFT_SHIFT},
+                                                         {"left_control", GLFW_KEY_LEFT_CONTROL}};
   for (const auto& [named, key] : kNamed)
     if (named == name) return key;
   if (name.size() == 1 && name[0] >= 'a' && name[0] <= 'z') return GLFW_KEY_A + (name[0] - 'a');
@@ -263,7 +247,8 @@ WindowInput Window::poll() {
                        .dropped = s.strikes.dropped};
   for (int i = 1; i <= 9; ++i)
     if (s.struck(GLFW_KEY_0 + i) || s.struck(GLFW_KEY_KP_0 + i)) input.camera = static_cast<std::uint32_t>(i);
-  add_gamepad(input);
+  if (const auto pad = read_gamepad()) add_gamepad(*pad, input);
+  add_gamepad(s.scripted.pad, input);
   s.move_pointer(input);
   input.panel = s.panel_input();
   input.pointer_x = input.panel.mouse_x;
@@ -317,6 +302,9 @@ void Window::inject(const ScriptEvent& event) {
     case Kind::minimise:
     case Kind::restore:
       s.scripted.minimised = event.kind == Kind::minimise;
+      break;
+    case Kind::pad:
+      s.scripted.pad.set(event.text, static_cast<float>(event.x));
       break;
     case Kind::drop:
       s.arriving.dropped.push_back(event.text);

@@ -70,7 +70,7 @@ ROOMS = {
     "sandbox/output": (("pictures",), ("file_io", "json_text")),
     "sandbox/scenes": (("construction", "street", "dusk", "lamps", "meadow", "wet_street"), ()),
     "sandbox/session": (("loading", "baking", "drawing", "results"), ("program_knobs", "session")),
-    "sandbox/play": (("input", "display", "budget", "start"), ()),
+    "sandbox/play": (("input", "display", "budget", "wipe", "start"), ()),
     "sandbox/bench": (("harness", "ecs", "jobs", "frame", "governor", "lights", "shadows", "closeups", "reflections", "grass",
                        "particles", "dof", "glare", "papers"), ()),
     "sandbox": (("output", "scenes", "session", "sweep", "window", "play", "bench", "selftest", "commands"), ("options", "console", "log")),

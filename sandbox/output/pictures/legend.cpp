@@ -11,7 +11,6 @@
 
 #include "engine/math/srgb.h"
 #include "engine/render/passes/visualizer_pass.h"
-#include "shaders/common/heat_shared.h"
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
@@ -102,20 +101,19 @@ class Canvas {
 /// A bar with its values below it.
 void draw_scale(Canvas& canvas, int top, int width, int scale, const HeatScale& heat, float heat_range) {
   canvas.draw_bar(scale * kLegendMargin, top, width, scale * (kBarHeight - 2));
-  for (int stop = 0; stop < GLOAM_HEAT_STOPS; ++stop) {
-    std::string number = heat_number(heat_value(heat, heat_range, stop));
-    const bool last = stop == GLOAM_HEAT_STOPS - 1;
-    if (last && !heat.unit.empty()) number += " " + heat.unit;
-    const int at = scale * kLegendMargin + width * stop / (GLOAM_HEAT_STOPS - 1);
-    const int wide = scale * text_width(number);
-    canvas.draw_line(number, stop == 0 ? at : last ? at - wide : at - wide / 2, top + scale * kBarHeight);
+  const int left = scale * kLegendMargin;
+  for (const HeatTick& tick : heat_ticks(heat, heat_range)) {
+    const int wide = scale * text_width(tick.text);
+    const int middle = left + static_cast<int>(std::lround(width * tick.share));
+    canvas.draw_line(tick.text, std::clamp(middle - wide / 2, left, std::max(left, left + width - wide)),
+                     top + scale * kBarHeight);
   }
 }
 
 }  // namespace
 
-void draw_legend(Picture& picture, std::string_view text, const HeatScale& heat, float heat_range) {
-  if (text.empty() || picture.width < 64 || picture.height < 32) return;
+std::uint32_t draw_legend(Picture& picture, std::string_view text, const HeatScale& heat, float heat_range) {
+  if (text.empty() || picture.width < 64 || picture.height < 32) return 0;
   const int scale = picture.height >= 720 ? 2 : 1;
   const int room = static_cast<int>(picture.width) / scale - 2 * kLegendMargin;
   const std::vector<std::string> lines = wrapped(text, room);
@@ -124,10 +122,12 @@ void draw_legend(Picture& picture, std::string_view text, const HeatScale& heat,
   const int top =
       static_cast<int>(picture.height) - scale * (static_cast<int>(lines.size()) * kLineHeight + kLegendMargin);
   Canvas canvas(picture, scale);
-  canvas.darken_below(top - scale * kLegendMargin - bar);
+  const int strip = std::max(top - scale * kLegendMargin - bar, 0);
+  canvas.darken_below(strip);
   if (has_bar) draw_scale(canvas, top - bar, std::min(scale * room, scale * kBarWidth), scale, heat, heat_range);
   for (std::size_t i = 0; i < lines.size(); ++i)
     canvas.draw_line(lines[i], scale * kLegendMargin, top + scale * static_cast<int>(i) * kLineHeight);
+  return picture.height - static_cast<std::uint32_t>(strip);
 }
 
 }  // namespace gloam

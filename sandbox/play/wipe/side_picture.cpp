@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "sandbox/play/budget/exact_picture.h"
+#include "sandbox/play/wipe/side_picture.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,11 +18,11 @@ constexpr const char* kWipeModule = "panel";
 }  // namespace
 
 /// The image of the next picture.
-Result<gpu::ImageHandle> ExactPicture::image(std::uint32_t width, std::uint32_t height) {
+Result<gpu::ImageHandle> SidePicture::image(std::uint32_t width, std::uint32_t height) {
   gpu::ImageHandle& drawn = images_[1];
   if (drawn && device_.desc(drawn).width == width && device_.desc(drawn).height == height) return drawn;
   if (drawn) device_.destroy(std::exchange(drawn, {}));
-  const auto made = device_.create_image({.name = "exact_picture",
+  const auto made = device_.create_image({.name = "wipe_picture",
                                           .module = kWipeModule,
                                           .format = gpu::Format::rgba8_unorm,
                                           .width = width,
@@ -33,7 +33,7 @@ Result<gpu::ImageHandle> ExactPicture::image(std::uint32_t width, std::uint32_t 
   return drawn;
 }
 
-Result<ViewRequest> ExactPicture::request(const ViewSettings& settings, double scale) {
+Result<ViewRequest> SidePicture::request(const ViewSettings& settings, double scale) {
   const auto full = image(settings.width, settings.height);
   if (!full.ok()) return full.error();
   ViewRequest request = {.settings = settings, .target = {}, .keep_linear = false};
@@ -49,21 +49,21 @@ Result<ViewRequest> ExactPicture::request(const ViewSettings& settings, double s
   request.settings.aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
   request.target.image = *reduced;
   request.target.overlay = [this, image = *full](FrameGraph& graph, ImageRef& picture) {
-    ImageRef enlarged = graph.import_image("exact_picture", image, gpu::Access::none, gpu::Access::fragment_read);
+    ImageRef enlarged = graph.import_image("wipe_picture", image, gpu::Access::none, gpu::Access::fragment_read);
     return upscaler_.add_passes(graph, picture, enlarged);
   };
   return request;
 }
 
-void ExactPicture::show_drawn() { std::swap(images_[0], images_[1]); }
+void SidePicture::show_drawn() { std::swap(images_[0], images_[1]); }
 
-bool ExactPicture::fits(std::uint32_t width, std::uint32_t height) const {
+bool SidePicture::fits(std::uint32_t width, std::uint32_t height) const {
   if (!images_[0]) return false;
   const gpu::ImageDesc& desc = device_.desc(images_[0]);
   return desc.width == width && desc.height == height;
 }
 
-Result<gpu::PipelineHandle> ExactPicture::pipeline_for(gpu::Format format) {
+Result<gpu::PipelineHandle> SidePicture::pipeline_for(gpu::Format format) {
   gpu::GraphicsPipelineDesc desc;
   desc.name = "wipe/" + std::string(gpu::name_of(format));
   desc.module = kWipeModule;
@@ -76,7 +76,7 @@ Result<gpu::PipelineHandle> ExactPicture::pipeline_for(gpu::Format format) {
   return pipelines_.get(desc);
 }
 
-Status ExactPicture::add_pass(FrameGraph& graph, ImageRef& window, float at) {
+Status SidePicture::add_pass(FrameGraph& graph, ImageRef& window, float at) {
   const gpu::ImageDesc target = graph.desc(window);
   if (!fits(target.width, target.height)) return {};
   const auto line =
@@ -87,7 +87,7 @@ Status ExactPicture::add_pass(FrameGraph& graph, ImageRef& window, float at) {
   const auto sampler = device_.create_sampler({});
   if (!sampler.ok()) return sampler.error();
   const ImageRef exact =
-      graph.import_image("shown_exact_picture", images_[0], gpu::Access::fragment_read, gpu::Access::fragment_read);
+      graph.import_image("shown_wipe_picture", images_[0], gpu::Access::fragment_read, gpu::Access::fragment_read);
   PassBuilder pass = graph.add_pass("wipe", kWipeModule);
   pass.read(exact, gpu::Access::fragment_read);
   window = pass.write(window, gpu::Access::color_target);
@@ -108,7 +108,7 @@ Status ExactPicture::add_pass(FrameGraph& graph, ImageRef& window, float at) {
   return {};
 }
 
-void ExactPicture::release() {
+void SidePicture::release() {
   for (gpu::ImageHandle& image : images_)
     if (image) device_.destroy(std::exchange(image, {}));
   upscaler_.release();

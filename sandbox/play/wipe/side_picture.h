@@ -15,12 +15,12 @@
 namespace gloam {
 
 /// The picture on the exact side of a wipe: one that is shown, and one that is drawn meanwhile.
-class ExactPicture {
+class SidePicture {
  public:
-  explicit ExactPicture(gpu::Device& device) : device_(device), pipelines_(device), upscaler_(device) {}
-  ~ExactPicture() { release(); }
-  ExactPicture(const ExactPicture&) = delete;
-  ExactPicture& operator=(const ExactPicture&) = delete;
+  explicit SidePicture(gpu::Device& device) : device_(device), pipelines_(device), upscaler_(device) {}
+  ~SidePicture() { release(); }
+  SidePicture(const SidePicture&) = delete;
+  SidePicture& operator=(const SidePicture&) = delete;
 
   /// A view to draw the next picture with. settings: of the window's size. scale: share of width and height that is
   /// drawn and then enlarged, above 0, at most 1. Call it between frames.

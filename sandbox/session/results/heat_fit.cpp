@@ -3,6 +3,7 @@
 #include "sandbox/session/results/heat_fit.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -18,6 +19,18 @@ namespace {
 
 constexpr double kFitting = 0.999;  // share of the numbers
 
+/// The number that all but one in a thousand are not above; 0 without a number.
+double largest_shown(std::span<const float> numbers) {
+  std::vector<float> finite;
+  finite.reserve(numbers.size());
+  for (const float number : numbers)
+    if (std::isfinite(number)) finite.push_back(number);
+  if (finite.empty()) return 0.0;
+  const auto rank = static_cast<std::size_t>(kFitting * static_cast<double>(finite.size() - 1));
+  std::nth_element(finite.begin(), finite.begin() + static_cast<std::ptrdiff_t>(rank), finite.end());
+  return static_cast<double>(finite[rank]);
+}
+
 /// The visualizer if it shows heat.
 std::optional<VisualizerInfo> heat_visualizer(const Renderer& renderer, std::string_view visualizer) {
   const std::string_view stem = visualizer.substr(0, visualizer.find(':'));
@@ -30,18 +43,23 @@ std::optional<VisualizerInfo> heat_visualizer(const Renderer& renderer, std::str
 
 float fitting_factor(std::span<const float> numbers, double most, std::span<const float> factors) {
   GLOAM_ASSERT(!factors.empty() && most > 0.0, "a colour scale has an end above 0 and a choice of factors");
-  std::vector<float> finite;
-  finite.reserve(numbers.size());
-  for (const float number : numbers)
-    if (std::isfinite(number)) finite.push_back(number);
-  if (finite.empty()) return 1.0f;
-  const auto rank = static_cast<std::size_t>(kFitting * static_cast<double>(finite.size() - 1));
-  std::nth_element(finite.begin(), finite.begin() + static_cast<std::ptrdiff_t>(rank), finite.end());
-  const float end = finite[rank];
-  if (!(end > 0.0f)) return 1.0f;
+  const double end = largest_shown(numbers);
+  if (!(end > 0.0)) return 1.0f;
   for (const float factor : factors)
-    if (static_cast<double>(factor) * most >= static_cast<double>(end)) return factor;
+    if (static_cast<double>(factor) * most >= end) return factor;
   return factors.back();
+}
+
+float fitting_factor_of_counts(std::span<const float> numbers, double most) {
+  GLOAM_ASSERT(most > 0.0, "a colour scale has an end above 0");
+  constexpr std::array kEnds = {5.0, 10.0, 15.0, 20.0, 25.0, 30.0, 40.0};
+  const double largest = largest_shown(numbers);
+  if (!(largest > 0.0)) return 1.0f;
+  double unit = 1.0;
+  while (kEnds.back() * unit < largest) unit *= 10.0;
+  for (const double end : kEnds)
+    if (end * unit >= largest) return static_cast<float>(end * unit / most);
+  return 1.0f;
 }
 
 bool shows_heat(const Renderer& renderer, std::string_view visualizer) {
@@ -61,6 +79,7 @@ Result<float> fitting_heat_range(Session& session, const ViewSettings& view) {
   std::vector<float> numbers;
   numbers.reserve(texels->size() / 4);
   for (std::size_t at = 0; at < texels->size(); at += 4) numbers.push_back((*texels)[at]);
+  if (shown->heat.counts) return fitting_factor_of_counts(numbers, shown->heat.most);
   return fitting_factor(numbers, shown->heat.most, heat_ranges(session.renderer->knobs()));
 }
 

@@ -15,11 +15,16 @@ namespace gloam {
 /// fit in; the largest factor if none does. 1 if no number is above 0. factors: ascending, not empty.
 [[nodiscard]] float fitting_factor(std::span<const float> numbers, double most, std::span<const float> factors);
 
+/// The same for counts, without a choice of factors: the end is a multiple of 5, so that a legend has whole numbers at
+/// all stops of the colours, and one of 5, 10, 15, 20, 25, 30, 40, or ten times as much, and so on.
+[[nodiscard]] float fitting_factor_of_counts(std::span<const float> numbers, double most);
+
 /// Whether a visualizer, NAME or NAME:ARGUMENT, shows numbers by the colours of a scale.
 [[nodiscard]] bool shows_heat(const Renderer& renderer, std::string_view visualizer);
 
-/// The value of ViewSettings::heat_range that fits the numbers of the view's last frame, of the factors of views.range.
-/// It waits for the frame. view: its visualizer shows heat, and the frame was drawn with it.
+/// The value of ViewSettings::heat_range that fits the numbers of the view's last frame: of the factors of views.range,
+/// or that of fitting_factor_of_counts. It waits for the frame. view: its visualizer shows heat, and the frame was
+/// drawn with it.
 [[nodiscard]] Result<float> fitting_heat_range(Session& session, const ViewSettings& view);
 
 }  // namespace gloam

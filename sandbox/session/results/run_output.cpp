@@ -43,10 +43,11 @@ Status write_picture(const DrawnRun& run, const std::string& path) {
   if (!picture) return picture.error();
   if (run.width > 0) *picture = enlarged(*picture, run.width, run.height);
   const std::string_view shown = std::string_view(run.view.visualizer).substr(0, run.view.visualizer.find(':'));
+  std::uint32_t legend_rows = 0;
   for (const VisualizerInfo& info : run.session.renderer->visualizers())
     if (info.name == shown && shown != "none")
-      draw_legend(*picture, info.name + ": " + info.legend, info.heat, run.view.heat_range);
-  return write_png(path, picture->width, picture->height, picture->rgba);
+      legend_rows = draw_legend(*picture, info.name + ": " + info.legend, info.heat, run.view.heat_range);
+  return write_png(path, picture->width, picture->height, picture->rgba, legend_rows);
 }
 
 Status write_reports(const DrawnRun& run, const Options& options, Console& console) {

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: MIT
 """Tests `compare`: what it says of two pictures, and how it ends."""
 import re
+import struct
+import zlib
 
 from program_case import ProgramCase, main
 from window_case import Picture
@@ -33,6 +35,20 @@ class Compare(ProgramCase):
         self.assertGreater(flip, 0.0)
         self.picture("c.png", (200, 20, 100))
         self.assertGreater(self.figures("c.png", "a.png")[0], flip)
+
+    def test_the_legend_of_a_view_is_left_out(self):
+        """Two pictures that differ only in the rows that one of them states to be its legend."""
+        self.picture("a.png", (100, 100, 100))
+        rows = [bytes((100, 100, 100)) * 8] * 4 + [bytes((0, 0, 0)) * 8] * 2
+        Picture(8, 6, b"".join(rows)).write(self.folder / "plain.png")
+        data = (self.folder / "plain.png").read_bytes()
+        self.assertGreater(self.figures("plain.png", "a.png")[2], 0)
+        for text, largest in ((b"gloam legend rows\x002", 0), (b"gloam legend rows\x001", 100),
+                              (b"gloam legend rows\x00999", 0), (b"Comment\x002", 100)):
+            chunk = struct.pack(">I", len(text)) + b"tEXt" + text + struct.pack(">I", zlib.crc32(b"tEXt" + text))
+            (self.folder / "legend.png").write_bytes(data[:33] + chunk + data[33:])
+            for names in (("legend.png", "a.png"), ("a.png", "legend.png")):
+                self.assertEqual(self.figures(*names)[2], largest, text)
 
     def test_a_difference_above_the_most_fails(self):
         self.picture("a.png", (0, 0, 0))

@@ -70,9 +70,31 @@ class PlayAnswers(WindowCase):
                     self.assertLess(self.end_time(run), ANSWER_S)
                     self.assertEqual(run.program.returncode, 128 + number)
 
+    # Hard case: program.knob_compiles_beside_frames
+    def test_the_old_picture_stays_with_a_line_while_a_changed_knob_compiles(self):
+        run = self.start_cold("--scale", "0.5", size="760x740", script="key tab\nwait 3\nclick_widget search\ntype shadows.mode\nwait 3\n"
+                              "click_widget shadows.mode\nwait 3\nmove 700 20\nwait 2\nsay before\nuntil before.seen\n"
+                              "click_widget shadows.mode monolithic\nmove 700 20\nsay changed\nwait 2\nsay after\nuntil after.seen\nclose\n")
+        before = run.photograph_at("before")
+        run.wait_said("changed")
+        self.assertFalse((self.folder / "after").exists(), "the script waits until the picture has changed")
+        titles, line = set(), 0
+        while not (self.folder / "after").exists() and run.program.poll() is None:
+            titles.add(run.display.title(run.window))
+            shown = run.display.photograph(run.window)
+            same = [shown.pixel(x, y) == before.pixel(x, y) for y in range(0, 640, 5) for x in range(490, 760, 5)]
+            covered = [shown.pixel(x, y) != before.pixel(x, y) for y in range(700, 730, 3) for x in range(600, 740, 3)]
+            line += all(same) and any(covered)
+            time.sleep(0.02)
+        after = run.photograph_at("after")
+        self.assertEqual(run.end(), "")
+        self.assertTrue(any(title.startswith("gloam: compiling ") for title in titles), titles)
+        self.assertGreater(line, 0, "the line lies over the picture with the old value")
+        self.assertGreater(before.differences(after)[1], 0.01)
+
     def test_a_signal_while_a_changed_knob_compiles_keeps_the_change(self):
         run = self.start_cold("--scale", "0.5", size="760x740", script="key tab\nwait 3\nclick_widget search\ntype shadows.mode\nwait 3\n"
-                              "click_widget shadows.mode\nwait 3\nclick_widget shadows.mode off\nwait 2\nsay changed\n")
+                              "click_widget shadows.mode\nwait 3\nclick_widget shadows.mode off\nsay changed\n")
         run.wait_said("changed")
         run.program.send_signal(signal.SIGINT)
         self.assertLess(self.end_time(run), ANSWER_S)

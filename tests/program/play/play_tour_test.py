@@ -7,7 +7,7 @@ import shutil
 import struct
 
 from program_case import main
-from window_case import WindowCase, read_png
+from window_case import FileDrop, WindowCase, read_png
 
 SIZE = ("--size", "240x135", "--scale", "1")
 
@@ -45,15 +45,19 @@ class PlayTour(WindowCase):
     def test_keys_move_the_camera_and_take_screenshots(self):
         run = self.start("builtin:shadows", *SIZE, "--dt", "0", "--validate",
                          script=stop("begin") + "hold w\nwait 6\nrelease w\n" + stop("forward") + "key 1\n" + stop("back") +
-                         "key f12\nwait 2\nmove 120 60\npress\nmove 180 60\nlift\n" + stop("turned") + "key escape\n")
+                         "key f12\nwait 2\nmove 120 60\npress\nmove 180 60\nlift\n" + stop("turned") + "key 1\n" +
+                         "pad left_y -1\nwait 6\npad left_y 0\n" + stop("stick") + "key escape\n")
         begin = run.photograph_at("begin")
         forward = run.photograph_at("forward")
         back = run.photograph_at("back")
         turned = run.photograph_at("turned")
+        stick = run.photograph_at("stick")
         self.assertEqual(run.end(), "")
         self.assertGreater(begin.differences(forward)[1], 1.0, "W flies forward")
         self.assertLessEqual(begin.differences(back)[0], 1, "1 returns to the scene's first camera")
         self.assertGreater(begin.differences(turned)[1], 1.0, "a drag turns the camera")
+        self.assertGreater(begin.differences(stick)[1], 1.0, "the left stick of a gamepad flies forward")
+        self.assertLess(forward.differences(stick)[1], begin.differences(stick)[1], "the same way as W")
         self.assertLessEqual(begin.differences(read_png(self.folder / "out/shadows-001.png"))[0], 1)
 
     def test_the_scene_pauses_and_steps(self):
@@ -158,6 +162,27 @@ class PlayTour(WindowCase):
         config = json.loads((self.folder / "out/shadows.config.json").read_text(encoding="utf-8"))
         self.assertEqual(config["shadows.mode"], "off")
 
+    def test_a_wipe_compares_kept_settings_and_ends_with_escape(self):
+        width, height = 760, 740
+
+        def columns(picture, first, last):
+            return [picture.pixel(x, y) for y in range(0, height, 5) for x in range(first, last, 5)]
+
+        run = self.start("builtin:shadows", "--size", f"{width}x{height}", "--scale", "0.5", "--dt", "0", "--validate", size=(800, 760),
+                         script=stop("a") + "key tab\nwait 3\nclick_widget keep A\nclick_widget search\ntype shadows.mode\nwait 2\n"
+                         "click_widget shadows.mode\nwait 2\nclick_widget shadows.mode off\nmove 700 20\nkey tab\n" + stop("now") +
+                         "key tab\nwait 2\nclick_widget wipe\nwait 6\nmove 700 20\nkey tab\n" + stop("wipe") +
+                         "move 382 300\npress\nmove 300 320\nmove 202 300\nlift\nwait 2\n" + stop("dragged") +
+                         "key escape\n" + stop("off") + "close\n")
+        a, now, wipe, dragged, off = (run.photograph_at(name) for name in ("a", "now", "wipe", "dragged", "off"))
+        run.end()
+        self.assertNotEqual(columns(a, 0, width), columns(now, 0, width))
+        for picture, line in ((wipe, 380), (dragged, 202)):
+            self.assertEqual(columns(picture, 0, line - 4), columns(now, 0, line - 4), "left of the line are the settings of now")
+            self.assertEqual(columns(picture, line + 4, width), columns(a, line + 4, width), "right of it are those of A")
+            self.assertIn((255, 255, 255), [picture.pixel(x, 400) for x in range(line - 3, line + 4)], "the line")
+        self.assertEqual(off.rgb, now.rgb, "Escape ends the wipe, not the program")
+
     def test_a_changed_shader_is_compiled_and_a_broken_one_is_shown(self):
         shutil.copytree(self.source / "shaders", self.folder / "tree/shaders")
         shader = self.folder / "tree/shaders/lighting/display/tone_map.frag.glsl"
@@ -178,11 +203,15 @@ class PlayTour(WindowCase):
         self.assertIn("no_such_function", run.end())
 
     def test_a_dropped_scene_is_shown_and_others_are_refused(self):
+        """The scene is dropped as a file manager does; its path has a space, which an URI writes as %20."""
         write_scene(self.folder / "small scene.gltf")
         run = self.start("builtin:plain", *SIZE, "--dt", "0",
-                         script="wait 2\ndrop none.gltf\nwait 2\ndrop script.txt\n" + stop("before") + "drop small scene.gltf\n" + stop("after") +
+                         script="wait 2\ndrop none.gltf\nwait 2\ndrop script.txt\n" + stop("before") + "until dropped\nwait 5\n" + stop("after") +
                          "close\n")
-        before, after = run.photograph_at("before"), run.photograph_at("after")
+        before = run.photograph_at("before")
+        FileDrop(run.display, self.folder / "small scene.gltf").onto(run, run.display.find(), 100, 60)
+        (self.folder / "dropped").touch()
+        after = run.photograph_at("after")
         errors = run.end()
         self.assertIn("none.gltf", errors)
         self.assertIn("script.txt: is no scene", errors)

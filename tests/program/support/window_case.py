@@ -13,7 +13,7 @@ from program_case import CACHE, ProgramCase
 from virtual_display import VirtualDisplay
 
 Z_PIXMAP = 2
-CLIENT_MESSAGE = 33
+SELECTION_REQUEST, SELECTION_NOTIFY, CLIENT_MESSAGE = 30, 31, 33
 ALL_PLANES = ctypes.c_ulong(-1)
 
 
@@ -28,6 +28,27 @@ class ClientMessage(ctypes.Structure):
     _fields_ = [("type", ctypes.c_int), ("serial", ctypes.c_ulong), ("send_event", ctypes.c_int), ("display", ctypes.c_void_p),
                 ("window", ctypes.c_ulong), ("message_type", ctypes.c_ulong), ("format", ctypes.c_int),
                 ("data", ctypes.c_long * 5), ("rest_of_union", ctypes.c_long * 24)]
+
+
+class SelectionRequest(ctypes.Structure):
+    _fields_ = [("type", ctypes.c_int), ("serial", ctypes.c_ulong), ("send_event", ctypes.c_int), ("display", ctypes.c_void_p),
+                ("owner", ctypes.c_ulong), ("requestor", ctypes.c_ulong), ("selection", ctypes.c_ulong), ("target", ctypes.c_ulong),
+                ("property", ctypes.c_ulong), ("time", ctypes.c_ulong)]
+
+
+class Selection(ctypes.Structure):
+    _fields_ = [("type", ctypes.c_int), ("serial", ctypes.c_ulong), ("send_event", ctypes.c_int), ("display", ctypes.c_void_p),
+                ("requestor", ctypes.c_ulong), ("selection", ctypes.c_ulong), ("target", ctypes.c_ulong), ("property", ctypes.c_ulong),
+                ("time", ctypes.c_ulong), ("rest_of_union", ctypes.c_long * 24)]
+
+
+class XEvent(ctypes.Union):
+    _fields_ = [("type", ctypes.c_int), ("rest_of_union", ctypes.c_long * 24)]
+
+
+# Xlib's own handler ends the process. Calls that fail return nothing.
+IGNORE_ERROR = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_void_p)(lambda *_: 0)
+ANY_EVENT = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)(lambda *_: 1)
 
 
 class Picture:
@@ -97,6 +118,7 @@ class Display:
         self.x11 = ctypes.CDLL(ctypes.util.find_library("X11") or "libX11.so.6")
         self.x11.XOpenDisplay.restype = ctypes.c_void_p
         self.x11.XGetImage.restype = ctypes.POINTER(XImage)
+        self.x11.XSetErrorHandler(IGNORE_ERROR)
         self.handle = ctypes.c_void_p(self.x11.XOpenDisplay(name.encode()))
         self.x11.XDefaultRootWindow.restype = ctypes.c_ulong
         self.x11.XInternAtom.restype = ctypes.c_ulong
@@ -141,8 +163,11 @@ class Display:
 
     def photograph(self, window, taken=lambda: None):
         """What the window shows. taken() is called as soon as the program may change the window."""
-        width, height = self.size(window)
-        image = self.x11.XGetImage(self.handle, ctypes.c_ulong(window), 0, 0, width, height, ALL_PLANES, Z_PIXMAP).contents
+        until, image = time.monotonic() + 60, None
+        while not image and time.monotonic() < until:  # none while the window is not shown yet, or changes its size
+            width, height = self.size(window)
+            image = self.x11.XGetImage(self.handle, ctypes.c_ulong(window), 0, 0, width, height, ALL_PLANES, Z_PIXMAP)
+        image = image.contents
         raw = ctypes.string_at(image.data, image.bytes_per_line * height)
         taken()
         rgb = bytearray(3 * width * height)
@@ -151,6 +176,64 @@ class Display:
             for channel in range(3):
                 rgb[3 * width * y + channel:3 * width * (y + 1):3] = row[2 - channel::4]
         return Picture(width, height, bytes(rgb))
+
+
+class FileDrop:
+    """A window from which a file is dropped onto another one, by the protocol XDND 5 as file managers do."""
+    NAMES = ("XdndAware", "XdndEnter", "XdndPosition", "XdndStatus", "XdndDrop", "XdndFinished", "XdndActionCopy", "XdndSelection",
+             "text/uri-list")
+
+    def __init__(self, display, path):
+        self.x11, self.handle, self.data = display.x11, display.handle, (path.as_uri() + "\r\n").encode()
+        self.atoms = {name: self.x11.XInternAtom(self.handle, name.encode(), 0) for name in self.NAMES}
+        self.x11.XCreateSimpleWindow.restype = ctypes.c_ulong
+        self.window = self.x11.XCreateSimpleWindow(self.handle, ctypes.c_ulong(display.root), 0, 0, 1, 1, 0, ctypes.c_ulong(0),
+                                                   ctypes.c_ulong(0))
+        self.x11.XSetSelectionOwner(self.handle, ctypes.c_ulong(self.atoms["XdndSelection"]), ctypes.c_ulong(self.window),
+                                    ctypes.c_ulong(0))
+
+    def send(self, target, name, *words):
+        message = ClientMessage(type=CLIENT_MESSAGE, window=target, message_type=self.atoms[name], format=32)
+        for i, word in enumerate((self.window, *words)):
+            message.data[i] = word
+        self.x11.XSendEvent(self.handle, ctypes.c_ulong(target), 0, ctypes.c_long(0), ctypes.byref(message))
+        self.x11.XFlush(self.handle)
+
+    def answer(self):
+        """Handles one event. Returns the name of an XDND message that it was, and its second word."""
+        event = XEvent()
+        if not self.x11.XCheckIfEvent(self.handle, ctypes.byref(event), ANY_EVENT, None):
+            time.sleep(0.01)
+            return None, 0
+        if event.type == CLIENT_MESSAGE:
+            message = ctypes.cast(ctypes.byref(event), ctypes.POINTER(ClientMessage)).contents
+            names = [name for name, atom in self.atoms.items() if atom == message.message_type]
+            return (names or [None])[0], message.data[1]
+        if event.type == SELECTION_REQUEST:
+            asked = ctypes.cast(ctypes.byref(event), ctypes.POINTER(SelectionRequest)).contents
+            self.x11.XChangeProperty(self.handle, ctypes.c_ulong(asked.requestor), ctypes.c_ulong(asked.property),
+                                     ctypes.c_ulong(asked.target), 8, 0, self.data, len(self.data))
+            given = Selection(type=SELECTION_NOTIFY, requestor=asked.requestor, selection=asked.selection, target=asked.target,
+                              property=asked.property, time=asked.time)
+            self.x11.XSendEvent(self.handle, ctypes.c_ulong(asked.requestor), 0, ctypes.c_long(0), ctypes.byref(given))
+            self.x11.XFlush(self.handle)
+        return None, 0
+
+    def onto(self, run, target, x, y):
+        """Drops the file at a point of the screen. Returns when the target has taken it."""
+        version, kind, copy = 5, self.atoms["text/uri-list"], self.atoms["XdndActionCopy"]
+        answers = []
+
+        def has_answered(name):
+            answers.append(self.answer())
+            return answers[-1][0] == name
+
+        self.send(target, "XdndEnter", version << 24, kind, 0, 0)
+        self.send(target, "XdndPosition", 0, x << 16 | y, 0, copy)
+        run.wait_for("XdndStatus", lambda: has_answered("XdndStatus"))
+        run.test.assertEqual(answers[-1][1] & 1, 1, "the window takes the file")
+        self.send(target, "XdndDrop", 0, 0)
+        run.wait_for("XdndFinished", lambda: has_answered("XdndFinished"))
 
 
 class Running:

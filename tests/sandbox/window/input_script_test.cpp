@@ -48,8 +48,31 @@ TEST(InputScriptTest, until_waits_for_its_file) {
   EXPECT_EQ(script->next(absent).kind, Kind::close);
 }
 
+TEST(InputScriptTest, waits_count_only_frames_that_show_the_last_changes) {
+  auto script = InputScript::parse("wait 2\npress\nlift\nwait 1\nclose", "tour");
+  ASSERT_TRUE(script.ok());
+  const auto next = [&](bool settled) { return script->next([](const std::string&) { return true; }, settled).kind; };
+  EXPECT_EQ(next(true), Kind::wait);
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(next(false), Kind::wait);
+  EXPECT_EQ(next(true), Kind::wait);
+  EXPECT_EQ(next(false), Kind::press) << "other events come at once";
+  EXPECT_EQ(next(false), Kind::lift);
+  EXPECT_EQ(next(false), Kind::wait);
+  EXPECT_EQ(next(true), Kind::wait);
+  EXPECT_EQ(next(true), Kind::close);
+}
+
+TEST(InputScriptTest, moves_parts_of_a_gamepad) {
+  const auto script = InputScript::parse("pad left_y -0.5\npad  right_bumper 1", "tour");
+  ASSERT_TRUE(script.ok()) << script.error().message;
+  EXPECT_EQ(script->events()[0].text, "left_y");
+  EXPECT_EQ(script->events()[0].x, -0.5);
+  EXPECT_EQ(script->events()[1].text, "right_bumper");
+}
+
 TEST(InputScriptTest, refuses_what_is_no_event) {
-  for (const char* wrong : {"jump", "move 1", "move 1 2 3", "move a b", "key", "wait", "close now", "movex 1 2"}) {
+  for (const char* wrong : {"jump", "move 1", "move 1 2 3", "move a b", "key", "wait", "close now", "movex 1 2",
+                            "pad 1", "pad left_y", "pad left_z 1", "pad left_y 1 2"}) {
     const auto script = InputScript::parse(std::string("wait 1\n") + wrong, "tour");
     ASSERT_FALSE(script.ok()) << wrong;
     EXPECT_EQ(script.error().kind, ErrorKind::usage);

@@ -32,6 +32,25 @@ TEST(PanelModel, a_slider_shows_the_unit_as_it_is_written) {
   EXPECT_STREQ(text, "16");
 }
 
+TEST(PanelModel, views_of_modules_that_the_scene_does_not_call_for_are_apart_with_the_reason) {
+  const std::vector<VisualizerInfo> views = {
+      {"none", "engine", "", ""},     {"overdraw", "particles", "", ""},     {"lights_approx", "lights", "", ""},
+      {"grass_lod", "grass", "", ""}, {"light_list", "lights", "LIGHT", ""}, {"grass_wind", "grass", "", ""},
+      {"own", "of a host", "", ""}};
+  const std::vector<ModuleState> modules = {{.name = "engine", .demanded = true},
+                                            {.name = "lights", .demanded = true, .reason = "2 lights"},
+                                            {.name = "grass", .demanded = false, .reason = "no surface grows grass"},
+                                            {.name = "particles", .demanded = false, .reason = "no emitter"}};
+  const ViewGroups groups = view_groups(views, modules);
+  std::vector<std::string> names;
+  for (const VisualizerInfo* view : groups.called_for) names.push_back(view->name);
+  EXPECT_THAT(names, ::testing::ElementsAre("none", "lights_approx", "light_list", "own"));
+  ASSERT_EQ(groups.others.size(), 2u);
+  EXPECT_EQ(groups.others[0].reason, "no emitter");
+  EXPECT_EQ(groups.others[1].module, "grass");
+  EXPECT_THAT(groups.others[1].views, ::testing::ElementsAre(&views[3], &views[5]));
+}
+
 TEST(PanelModel, a_wide_range_of_factors_moves_in_factors) {
   const KnobRegistry knobs = test::small_knobs();
   EXPECT_TRUE(spans_magnitudes(knobs.knobs()[1]));

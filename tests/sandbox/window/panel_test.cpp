@@ -31,7 +31,9 @@ class PanelTest : public ::testing::Test {
                                     return {};
                                   },
                                   .scene = scene_,
-                                  .budgets = budgets_};
+                                  .budgets = budgets_,
+                                  .wipe = wipe_,
+                                  .set_wipe = set_wipe_};
     panel_.update(input, {.width = 800, .height = 600, .dt_s = 0.02}, content);
   }
 
@@ -86,6 +88,8 @@ class PanelTest : public ::testing::Test {
 
   const PanelScene* scene_ = nullptr;
   const PanelBudgets* budgets_ = nullptr;
+  const PanelWipe* wipe_ = nullptr;
+  std::function<void(const PanelWipe&)> set_wipe_;
   Panel panel_;
   PanelInput last_;
 };
@@ -144,6 +148,16 @@ TEST_F(PanelTest, reset_gives_the_default_back) {
 
 TEST_F(PanelTest, a_visualizer_is_chosen) {
   click("view");
+  click("view heat");
+  EXPECT_EQ(visualizer_, "heat");
+}
+
+TEST_F(PanelTest, visualizers_of_idle_modules_are_chosen_from_a_fold) {
+  modules_[0] = {.name = "lamp", .demanded = false, .reason = "no lamp"};
+  click("view");
+  EXPECT_EQ(find("view heat"), nullptr);
+  EXPECT_NE(find("view none"), nullptr);
+  click("other views", 0.05);
   click("view heat");
   EXPECT_EQ(visualizer_, "heat");
 }
@@ -293,6 +307,46 @@ TEST(ShownLights, are_found_by_name_and_kind_and_sorted_by_share) {
   EXPECT_TRUE(shown_lights(lights, "sun", true).empty());
 }
 
+TEST_F(PanelTest, a_wipe_offers_what_there_is_to_compare) {
+  PanelWipe wipe;
+  std::vector<PanelWipe> wanted;
+  wipe_ = &wipe;
+  set_wipe_ = [&](const PanelWipe& w) { wanted.push_back(w); };
+  click("wipe", 0.05);
+  EXPECT_TRUE(wanted.empty()) << "nothing was kept, and no view is shown";
+  ASSERT_TRUE(knobs_.set("lamp.samples", "8").ok());
+  click("keep B");
+  click("wipe", 0.05);
+  ASSERT_EQ(wanted.size(), 1u);
+  EXPECT_TRUE(wanted[0].on);
+  EXPECT_EQ(wanted[0].side, WipeSide::kept_b);
+  ASSERT_EQ(wanted[0].kept.size(), knobs_.knobs().size());
+  wipe = wanted[0];
+  EXPECT_EQ(find("wipe line"), nullptr);
+  click("wipe line", 0.98);
+  EXPECT_GT(wanted.back().at, 0.9f);
+  wipe = wanted.back();
+  wanted.clear();
+  for (int i = 0; i < 3; ++i) frame();
+  EXPECT_TRUE(wanted.empty()) << "nothing has changed";
+  ASSERT_TRUE(knobs_.set("lamp.samples", "32").ok());
+  click("keep B");
+  ASSERT_FALSE(wanted.empty()) << "settings that are kept anew are shown";
+  wipe = wanted.back();
+  visualizer_ = "heat";
+  click("wipe side");
+  EXPECT_EQ(find("wipe side exact"), nullptr) << "there is no budget";
+  EXPECT_EQ(find("wipe side A"), nullptr);
+  click("wipe side picture");
+  EXPECT_EQ(wanted.back().side, WipeSide::picture);
+  EXPECT_TRUE(wanted.back().on);
+  EXPECT_TRUE(wanted.back().kept.empty());
+  wipe = wanted.back();
+  visualizer_ = "none";
+  frame();
+  EXPECT_FALSE(wanted.back().on) << "both sides would be the same";
+}
+
 TEST_F(PanelTest, budgets_pass_on_what_the_user_changes) {
   const std::vector<PanelBudget> shown = {
       {.ms = 33.0, .setting = "setting 1 of 2", .knobs = {{"lamp.filter", "box", false}, {"lamp.share", "50", true}}},
@@ -303,9 +357,7 @@ TEST_F(PanelTest, budgets_pass_on_what_the_user_changes) {
       .set_ms = [&](std::size_t budget,
                     double ms) { done = "budget " + std::to_string(budget) + (ms > 500.0 ? " long" : " short"); },
       .lock = [&](std::size_t budget, const std::string& knob,
-                  bool locked) { done = std::to_string(budget) + (locked ? " locks " : " frees ") + knob; },
-      .wipe = {},
-      .set_wipe = [&](bool on, float at) { done = on ? at > 0.9f ? "wipe at the right" : "wipe" : "no wipe"; }};
+                  bool locked) { done = std::to_string(budget) + (locked ? " locks " : " frees ") + knob; }};
   budgets_ = &budgets;
   const auto expect = [&](const char* widget, const char* what, double share = 0.5) {
     done.clear();
@@ -317,11 +369,6 @@ TEST_F(PanelTest, budgets_pass_on_what_the_user_changes) {
   expect("lock lamp.filter", "0 locks lamp.filter");
   expect("lock lamp.share", "0 frees lamp.share");
   expect("lock lamp.samples", "1 locks lamp.samples");
-  expect("wipe", "wipe", 0.05);
-  EXPECT_EQ(find("wipe line"), nullptr);
-  budgets.wipe.on = true;
-  expect("wipe line", "wipe at the right", 0.98);
-  expect("wipe", "no wipe", 0.05);
   EXPECT_EQ(budgets.find("lamp.share")->locked, true);
   EXPECT_EQ(budgets.find("lamp.other"), nullptr);
 }

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <vector>
 
 #include "engine/render/passes/visualizer_pass.h"
 
@@ -15,10 +17,7 @@ Picture grey(std::uint32_t width, std::uint32_t height) {
   return {.width = width, .height = height, .rgba = std::vector<std::uint8_t>(std::size_t{width} * height * 4, 200)};
 }
 
-TEST(Legend, a_scale_has_the_colours_of_the_view_and_its_values) {
-  const HeatScale heat = {31.0, "lights"};
-  EXPECT_EQ(heat_text(heat, 1.0f), "black 0, blue 6.2, cyan 12.4, green 18.6, yellow 24.8, red 31, white more lights");
-  EXPECT_EQ(heat_value(heat, 0.25f, 5), 7.75);
+TEST(Legend, a_scale_has_the_colours_of_the_view) {
   EXPECT_EQ(heat_color(0.0), vec3(0.0f));
   EXPECT_EQ(heat_color(1.01), vec3(1.0f));
   EXPECT_GT(heat_color(1.0).r, 10.0f * heat_color(1.0).g) << "red";
@@ -39,6 +38,23 @@ TEST(Legend, a_bar_runs_from_black_to_red_above_the_text) {
   EXPECT_EQ(bar_rows, 6);
   const auto darkened = [](const Picture& p) { return std::ranges::count(p.rgba, std::uint8_t{50}); };
   EXPECT_GT(darkened(picture), darkened(plain)) << "the strip is higher";
+}
+
+TEST(Legend, covers_the_rows_that_it_says_and_no_other) {
+  for (const HeatScale& heat : {HeatScale{}, HeatScale{.most = 31.0, .counts = true}}) {
+    Picture picture = grey(320, 180);
+    const std::uint32_t rows = draw_legend(picture, "numbers of lights in each tile", heat);
+    ASSERT_GT(rows, 12u);
+    ASSERT_LT(rows, 60u);
+    const auto row = [&](std::uint32_t y) {
+      const auto begin = picture.rgba.begin() + static_cast<std::ptrdiff_t>(y) * 320 * 4;
+      return std::vector<std::uint8_t>(begin, begin + 320 * 4);
+    };
+    for (std::uint32_t y = 0; y < 180; ++y)
+      EXPECT_EQ(row(y) == std::vector<std::uint8_t>(320 * 4, 200), y < 180 - rows) << y;
+  }
+  Picture tiny = grey(60, 20);
+  EXPECT_EQ(draw_legend(tiny, "numbers"), 0u);
 }
 
 TEST(Legend, small_pictures_have_no_bar) {

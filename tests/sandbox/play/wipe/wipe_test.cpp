@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "sandbox/play/budget/wipe.h"
+#include "sandbox/play/wipe/wipe.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <set>
@@ -61,11 +62,11 @@ class WipeTest : public ::testing::Test {
 
 TEST_F(WipeTest, draws_the_exact_picture_beside_the_picture_now) {
   EXPECT_FALSE(frame()) << "it is off";
-  wipe_->set(true, 0.5f);
+  wipe_->set({.on = true});
   EXPECT_THAT(wipe_->shown().note, HasSubstr("being drawn"));
   const std::uint64_t version = session_->renderer->knobs().version();
   static_cast<void>(frame());
-  for (std::uint32_t i = 0; i < ExactTiming::kFrames; ++i) {
+  for (std::uint32_t i = 0; i < SideTiming::kFrames; ++i) {
     const auto exact = frame();
     ASSERT_TRUE(exact);
     EXPECT_NE(exact->id, view_.id) << "a view with histories of its own";
@@ -84,9 +85,9 @@ TEST_F(WipeTest, draws_the_exact_picture_beside_the_picture_now) {
 
 TEST_F(WipeTest, a_locked_scale_is_the_exact_picture_s_too) {
   ASSERT_TRUE(session_->renderer->change_budget("", 11.0, {"views.scale"}).ok());
-  wipe_->set(true, 0.5f);
+  wipe_->set({.on = true});
   static_cast<void>(frame());
-  for (std::uint32_t i = 0; i < ExactTiming::kFrames; ++i) {
+  for (std::uint32_t i = 0; i < SideTiming::kFrames; ++i) {
     const auto exact = wipe_->due(view_, 0.0, 0.5, 0.1);
     ASSERT_TRUE(exact.ok() && *exact);
     EXPECT_EQ((*exact)->settings.width, 32u);
@@ -99,7 +100,7 @@ TEST_F(WipeTest, a_locked_scale_is_the_exact_picture_s_too) {
 }
 
 TEST_F(WipeTest, frames_with_the_exact_picture_and_those_under_way_are_not_judged) {
-  wipe_->set(true, 0.5f);
+  wipe_->set({.on = true});
   EXPECT_TRUE(wipe_->judges_frame());
   static_cast<void>(frame());
   EXPECT_TRUE(wipe_->judges_frame());
@@ -109,7 +110,7 @@ TEST_F(WipeTest, frames_with_the_exact_picture_and_those_under_way_are_not_judge
 }
 
 TEST_F(WipeTest, another_moment_or_size_waits_for_another_picture) {
-  wipe_->set(true, 0.5f);
+  wipe_->set({.on = true});
   for (int i = 0; i < 5; ++i) static_cast<void>(frame());
   ASSERT_TRUE(passes_.contains("wipe"));
   EXPECT_FALSE(frame(1.0));
@@ -123,6 +124,50 @@ TEST_F(WipeTest, another_moment_or_size_waits_for_another_picture) {
   EXPECT_THAT(wipe_->shown().note, IsEmpty());
 }
 
+TEST_F(WipeTest, kept_settings_are_drawn_in_each_frame_that_changes) {
+  KnobRegistry& knobs = session_->renderer->knobs();
+  std::vector<KnobOverride> kept;
+  for (const Knob& knob : knobs.knobs()) kept.push_back({knob.name, knobs.text(knob)});
+  const auto filter = std::ranges::find(kept, "shadows.filter", &KnobOverride::name);
+  ASSERT_NE(filter, kept.end());
+  filter->value = "pcf";
+  wipe_->set({.on = true, .side = WipeSide::kept_b, .kept = kept});
+  for (int time = 0; time < 6; ++time) {
+    const auto right = frame(time);
+    ASSERT_TRUE(right) << time;
+    ASSERT_EQ(right->knobs.size(), 1u) << "what B has as it is now is no override";
+    EXPECT_EQ(right->knobs[0].name, "shadows.filter");
+    EXPECT_EQ(right->knobs[0].value, "pcf");
+    EXPECT_EQ(right->camera_cut, time == 0);
+    EXPECT_EQ(passes_.contains("wipe"), time > 0);
+  }
+  EXPECT_THAT(wipe_->shown().note, HasSubstr("now | B: two pictures"));
+  std::uint32_t drawn = 0;
+  for (int still = 0; still < 20; ++still) drawn += frame(5.0) ? 1 : 0;
+  EXPECT_EQ(drawn, SideTiming::kFrames - 1) << "at rest the last one stays";
+  EXPECT_TRUE(passes_.contains("wipe"));
+  filter->value = "hard";
+  wipe_->set({.on = true, .side = WipeSide::kept_b, .kept = kept});
+  EXPECT_TRUE(frame(5.0)) << "B was kept anew";
+}
+
+TEST_F(WipeTest, the_picture_is_beside_the_view_that_is_shown) {
+  view_.visualizer = "lights_approx";
+  wipe_->set({.on = true, .side = WipeSide::picture});
+  const auto right = frame();
+  ASSERT_TRUE(right);
+  EXPECT_EQ(right->visualizer, "none");
+  EXPECT_THAT(right->knobs, IsEmpty());
+}
+
+TEST_F(WipeTest, a_view_that_kept_settings_do_not_have_is_left_out_there) {
+  view_.visualizer = "lights_approx";  // needs lights.culling=tiled
+  wipe_->set({.on = true, .side = WipeSide::kept_a, .kept = {{"lights.culling", "brute"}}});
+  EXPECT_EQ(frame().value().visualizer, "none");
+  wipe_->set({.on = true, .side = WipeSide::kept_a, .kept = {{"shadows.filter", "pcf"}}});
+  EXPECT_EQ(frame(1.0).value().visualizer, "lights_approx");
+}
+
 TEST_F(WipeTest, turned_off_it_leaves_no_memory) {
   const auto bytes = [&] {
     static_cast<void>(session_->renderer->wait());
@@ -133,10 +178,10 @@ TEST_F(WipeTest, turned_off_it_leaves_no_memory) {
   };
   static_cast<void>(frame());
   const std::uint64_t before = bytes();
-  wipe_->set(true, 0.5f);
+  wipe_->set({.on = true});
   for (int i = 0; i < 6; ++i) static_cast<void>(frame());
   EXPECT_GT(bytes(), before);
-  wipe_->set(false, 0.5f);
+  wipe_->set({.on = false});
   static_cast<void>(frame());
   EXPECT_FALSE(passes_.contains("wipe"));
   EXPECT_EQ(bytes(), before);

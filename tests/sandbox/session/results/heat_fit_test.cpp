@@ -6,6 +6,7 @@
 
 #include <array>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "modules/module_list/module_list.h"
@@ -42,6 +43,28 @@ TEST(FittingFactor, ignores_one_in_a_thousand_and_what_is_not_a_number) {
 TEST(FittingFactor, is_1_without_a_number_above_0) {
   EXPECT_EQ(fitting_factor({}, 10.0, kFactors), 1.0f);
   EXPECT_EQ(fitting_factor(std::vector<float>{-1.0f, 0.0f}, 10.0, kFactors), 1.0f);
+}
+
+TEST(FittingFactor, of_counts_ends_at_the_next_of_some_multiples_of_5) {
+  const auto end = [](float largest) {
+    const std::vector<float> numbers(10, largest);
+    const double factor = static_cast<double>(fitting_factor_of_counts(numbers, 31.0));
+    return factor * 31.0;
+  };
+  for (const auto& [largest, expected] : {std::pair(1.0f, 5.0),
+                                          {5.0f, 5.0},
+                                          {6.0f, 10.0},
+                                          {21.0f, 25.0},
+                                          {31.0f, 40.0},
+                                          {40.0f, 40.0},
+                                          {41.0f, 50.0},
+                                          {51.0f, 100.0},
+                                          {399.0f, 400.0},
+                                          {401.0f, 500.0},
+                                          {12345.0f, 15000.0}})
+    EXPECT_NEAR(end(largest), expected, 1e-5 * expected) << largest;
+  EXPECT_EQ(fitting_factor_of_counts({}, 31.0), 1.0f);
+  EXPECT_EQ(fitting_factor_of_counts(std::vector<float>(9, 0.0f), 31.0), 1.0f);
 }
 
 TEST(HeatRanges, are_the_factors_of_the_knob_in_order) {
