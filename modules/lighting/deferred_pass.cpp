@@ -6,6 +6,7 @@
 #include "engine/render/declare/draw_pass.h"
 #include "modules/lighting/environment.h"
 #include "modules/lighting/lighting_passes.h"
+#include "modules/lighting/occlusion_passes.h"
 #include "modules/lighting/outputs.h"
 #include "modules/shadows/outputs.h"
 #include "shaders/lighting/shaders.h"
@@ -56,6 +57,7 @@ DrawProgram shading_program(LocalLights source, const ShadingInputs& inputs, con
   if (inputs.diffuse_light_wanted) program.constants.set("kDiffuseLight", 1u);
   program.constants.set(indirect_constants(inputs));
   if (inputs.traced_indirect) program.constants.set("kTracedIndirect", 1u);
+  if (inputs.occlusion) program.constants.set("kOcclusion", 1u);
   if (final_lists) {
     program.constants.set(shadows->final_lists->constants);
   } else if (tiled) {
@@ -94,6 +96,8 @@ void read_inputs(FrameBuilder& frame, DrawPass& pass, const ShadingInputs& input
   pass.read_if_declared("traced_indirect", inputs.traced_indirect);
   read_geometry(pass, frame.get<GeometryOutputs>());
   read_light_lists(pass, inputs.outputs);
+  const auto* occlusion = frame.find<AmbientOcclusion>();
+  pass.read_if_declared("hidden_image", occlusion != nullptr ? occlusion->hidden : ImageRef{});
   const auto* surroundings = frame.find<SurroundingsOutput>();
   pass.read_if_declared("far_image", surroundings != nullptr ? surroundings->light : ImageRef{});
   if (shadows == nullptr) return;

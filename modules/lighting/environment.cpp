@@ -10,6 +10,7 @@
 #include "engine/scene/resources.h"
 #include "engine/scene/transmission.h"
 #include "modules/lighting/knobs.h"
+#include "modules/lighting/occlusion_passes.h"
 #include "modules/lighting/outputs.h"
 #include "shaders/lighting/lighting_shared.h"
 
@@ -85,6 +86,7 @@ const ShadingInputs& shading_inputs(FrameBuilder& frame) {
   inputs.specular_ambient_taken = frame.find<SpecularAmbientTaken>() != nullptr;
   inputs.diffuse_light_wanted = frame.find<DiffuseLightWanted>() != nullptr;
   inputs.transmission = lets_light_through(frame.world());
+  inputs.occlusion = occludes_ambient(frame);
   inputs.plain_highlights = plain_highlights(frame.knobs());
   add_surroundings(frame, inputs);
   add_indirect_light(frame, inputs);

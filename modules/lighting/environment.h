@@ -27,6 +27,7 @@ struct ShadingInputs {
   gpu::Binding::BufferRange diffuse_probes;
   ImageRef traced_indirect;       ///< null: none
   bool transmission = false;      ///< lets_light_through()
+  bool occlusion = false;         ///< there is an AmbientOcclusion
   bool plain_highlights = false;  ///< of points at points: neither lights nor pixels have a width
   /// Of the lights module. If the scene has no light: a block without lights, and default values.
   LightsOutputs outputs;

@@ -14,6 +14,8 @@
 #include "modules/lighting/display/tone_reference.h"
 #include "modules/lighting/knobs.h"
 #include "modules/lighting/lighting_passes.h"
+#include "modules/lighting/occlusion.h"
+#include "modules/lighting/occlusion_passes.h"
 #include "modules/lighting/outputs.h"
 
 namespace gloam {
@@ -28,7 +30,8 @@ class LightingModule final : public Module {
   void scene_keys(KeyRegistry&) const override {}
 
   void knobs(KnobRegistry& registry) const override {
-    add_knobs(registry, name(), kToneMap, kToneMapTable, kDither, kSpecularAntialiasing, kAntialiasing, kExposure);
+    add_knobs(registry, name(), kToneMap, kToneMapTable, kDither, kSpecularAntialiasing, kAntialiasing, kExposure,
+              kAmbientOcclusion);
   }
 
   [[nodiscard]] std::vector<ReferenceInfo> references() const override {
@@ -52,6 +55,7 @@ class LightingModule final : public Module {
     world.set_view_resource(view, HighlightFilter{variance});
   }
 
+  [[nodiscard]] std::vector<VisualizerInfo> visualizers() const override { return occlusion_visualizers(); }
   [[nodiscard]] bool shows_surfaces(const World&, const RenderView&) const override { return false; }
   [[nodiscard]] Demand demand(const World&, const RenderView*) const override { return {true, "every picture is lit"}; }
 
@@ -75,6 +79,7 @@ class LightingModule final : public Module {
     const ShadowsOutputs shadows = with_knobs(last_->shadows, knobs);
     ShadingInputs inputs = last_->inputs;
     inputs.plain_highlights = plain_highlights(knobs);
+    inputs.occlusion = inputs.occlusion && knobs.value(kAmbientOcclusion);
     list_deferred_pipelines(inputs, shadows, list);
     list_forward_pipelines(inputs, shadows, last_->blended, list);
   }
@@ -82,6 +87,7 @@ class LightingModule final : public Module {
   void add_passes(FrameBuilder& frame, PassPhase phase) override {
     if (phase == PassPhase::shading) keep_inputs(frame);
     if (phase == PassPhase::shading) {
+      add_occlusion_passes(frame);
       add_deferred_pass(frame);
       add_blended_layer_passes(frame);
     }
@@ -90,6 +96,7 @@ class LightingModule final : public Module {
       add_front_depth_passes(frame);
     }
     if (phase == PassPhase::output) add_tone_map_passes(frame);
+    if (phase == PassPhase::visualize) add_occlusion_view_pass(frame);
   }
 
   void take_result(World& world, ViewId view, std::string_view name, const FrameResult& result) const override {

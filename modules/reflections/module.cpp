@@ -11,6 +11,7 @@
 #include "engine/render/worlds/world_id.h"
 #include "engine/scene/assets.h"
 #include "engine/scene/keys/table.h"
+#include "modules/lighting/occlusion.h"
 #include "modules/lighting/outputs.h"
 #include "modules/lights/components.h"
 #include "modules/lights/light_names.h"
@@ -133,6 +134,7 @@ class ReflectionsModule final : public Module {
           kReflectionRecapture.name})
       references.push_back(traced_reflections(std::string(knob), false, &traced_extras));
     references.push_back(traced_indirect(std::string(kIndirectLight.name)));
+    references.push_back(traced_indirect(std::string(kAmbientOcclusion.name)));
     return references;
   }
   [[nodiscard]] std::vector<std::string> warnings(const World& world) const override { return unseen_captures(world); }

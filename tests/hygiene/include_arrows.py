@@ -23,7 +23,7 @@ MODULE_LIST = module_graph.LIST  # knows every module and its checks of kernels;
 KERNEL_CHECKS = ["reference", "kernel_checks.h"]
 # The headers of a module that others may include; a few modules have more.
 MODULE_PUBLIC = ("components.h", "module.h", "outputs.h")
-MODULE_PUBLIC_TOO = {"lights": ("light_names.h",), "particles": ("bake.h", "baked_light.h"), "reflections": ("bake.h", "captures.h"),
+MODULE_PUBLIC_TOO = {"lights": ("light_names.h",), "lighting": ("occlusion.h",), "particles": ("bake.h", "baked_light.h"), "reflections": ("bake.h", "captures.h"),
                      "shadows": ("reference.h",), "accuracy": ("stability.h", "picture_difference.h")}
 
 # The rooms of modules that are also a target <module>_cpu, for hosts without a GPU, and the files directly in the folder that

@@ -16,6 +16,7 @@ layout(constant_id = 1) const uint kDirectionalLights = 0u;  // a constant of th
 layout(constant_id = 3) const uint kSpecularAmbient = 1u;    // 0: without it; 2: with far_image
 layout(constant_id = 4) const uint kDiffuseLight = 0u;       // 1: with the second target
 layout(constant_id = 32) const uint kTracedIndirect = 0u;    // 1: with traced_indirect, for references
+layout(constant_id = 35) const uint kOcclusion = 0u;         // 1: with hidden_image
 
 layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
 layout(set = 0, binding = 1, scalar) uniform Lights { LightBlock lights; };
@@ -28,6 +29,7 @@ layout(set = 0, binding = 7) uniform sampler2D depth_image;
 layout(set = 0, binding = 8) uniform sampler2D light_texels;
 layout(set = 0, binding = 23) uniform sampler2D far_image;        // SurroundingsOutput
 layout(set = 0, binding = 26) uniform sampler2D traced_indirect;  // IndirectLight::traced
+layout(set = 0, binding = 27) uniform sampler2D hidden_image;     // AmbientOcclusion
 #define GLOAM_INDIRECT_BINDING 24
 #include "shaders/lighting/indirect_api.glsl"
 
@@ -96,8 +98,12 @@ vec3 ambient_light(ShadingPoint p, ivec2 pixel, GBufferTexel g) {
   SurroundingLight around = surrounding_light(p.position, p.normal);
   if (kTracedIndirect != 0u)
     around = SurroundingLight(texelFetch(traced_indirect, pixel, 0).rgb * view.light_scale, 1.0);
-  if (kDiffuseLight != 0u) diffuse_light += (kPi * g.occlusion) * around.radiance;
-  vec3 light = diffuse_surroundings(p, around);
+  // Traced light is what its rays met, so nothing more is hidden. Mirrored light comes from one direction, about which
+  // the mean of the hemisphere says little.
+  float visible = 1.0;
+  if (kOcclusion != 0u && kTracedIndirect == 0u) visible -= texelFetch(hidden_image, pixel, 0).r;
+  if (kDiffuseLight != 0u) diffuse_light += (kPi * g.occlusion * visible) * around.radiance;
+  vec3 light = visible * diffuse_surroundings(p, around);
   vec3 mirrored = mirrored_surroundings(p, g.roughness, around);
   if (kSpecularAmbient == 1u) light += specular_share(p, g.roughness) * mirrored;
   if (kSpecularAmbient == 2u) light += weak_reflection(p, pixel, g, mirrored);
