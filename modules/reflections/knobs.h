@@ -223,9 +223,8 @@ inline constexpr EnumKnob<IndirectSource> kIndirectLight{
     .name = "lighting.indirect",
     .meaning =
         "light that surfaces get from their surroundings: that of sky and ground, seen from everywhere (sky), or that "
-        "of "
-        "lit surfaces and the sky as the scene's cube probes see them, with sky and ground beyond the probes (probes)",
-    .only_with = "reflections.mode=tiers|planar"};
+        "of lit surfaces and the sky as the scene's cube probes see them, with sky and ground beyond the probes "
+        "(probes)"};
 
 void add_reflection_knobs(KnobRegistry& registry);
 [[nodiscard]] ReflectionKnobs reflection_knobs(const KnobRegistry& registry);

@@ -173,9 +173,10 @@ class ReflectionsModule final : public Module {
   }
   [[nodiscard]] bool shows_surfaces(const World&, const RenderView&) const override { return false; }
   [[nodiscard]] std::string switched_off(const World& world, const KnobRegistry& knobs) const override {
-    if (reflection_knobs(knobs).mode == ReflectionKnobs::Mode::off) return "reflections.mode=off";
     const bool diffuse =
         knobs.value(kIndirectLight) == IndirectSource::probes || world.try_resource<TracedIndirect>() != nullptr;
+    const bool off = reflection_knobs(knobs).mode == ReflectionKnobs::Mode::off;
+    if (off && !(diffuse && has_diffuse_light(world))) return "reflections.mode=off";
     if (!diffuse && !reflective_demand(world, nullptr).needed && has_diffuse_light(world))
       return "lighting.indirect=sky, and nothing reflects";
     return "";

@@ -67,6 +67,14 @@ std::string summary_of(const ReflectionCaptures& captures, double seconds) {
          formatted(" captured in %.1f s\n", seconds);
 }
 
+/// Without --probes, the new captures take the grid over from the file that they replace. The log names a file of other
+/// content: its grid is out of date, and goes.
+void keep_grid(const std::string& path, const Options& options, const World& world, ReflectionCaptures& captures,
+               LogSink& log) {
+  if (path.empty() || options.grid_probes > 0) return;
+  if (auto before = load_captures(path, world, captures.content, log)) captures.grid = std::move(before->grid);
+}
+
 Status check_bake_options(const Options& options) {
   if (options.beside && captures_beside(options.scene).empty())
     return Error{ErrorKind::usage, "--beside needs a scene file, and " + options.scene + " has none"};
@@ -84,11 +92,14 @@ Status run_bake(const CommandContext& context) {
   if (!session) return session.error();
   const World& world = session.value()->world;
   const auto begin = std::chrono::steady_clock::now();
-  const auto captures = bake_scene(*session.value(), options, context.log,
-                                   show_bake_progress(context.console, options.quiet, "reflection captures"));
+  auto captures = bake_scene(*session.value(), options, context.log,
+                             show_bake_progress(context.console, options.quiet, "reflection captures"));
   if (!captures) return captures.error();
   GLOAM_TRY(session.value()->check_validation());
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const std::string path =
+      options.beside ? captures_beside(options.scene) : cached_captures(*session.value(), options, captures->content);
+  keep_grid(path, options, world, *captures, context.log);
   if (!options.out.empty()) {
     GLOAM_TRY(
         write_layers(captures->proxies, captures->light_scale, captures->proxy_entities, world, "proxy", options.out));
@@ -99,8 +110,6 @@ Status run_bake(const CommandContext& context) {
     if (!options.quiet) context.console.print("the scene has no proxy and no probe: there is nothing to capture\n");
     return {};
   }
-  const std::string path =
-      options.beside ? captures_beside(options.scene) : cached_captures(*session.value(), options, captures->content);
   if (!path.empty()) GLOAM_TRY(save_captures(path, world, *captures));
   if (options.quiet) return {};
   context.console.print(summary_of(*captures, seconds));

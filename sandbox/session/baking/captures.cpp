@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <optional>
+#include <system_error>
 #include <utility>
 
 #include "engine/core/hash.h"
@@ -41,6 +42,14 @@ std::optional<ReflectionCaptures> load_kept(const Session& session, const Option
     if (auto captures = load_captures(path, session.world, content, log)) return captures;
   }
   return std::nullopt;
+}
+
+/// Whether a file of captures may exist, found without a hash of the scene's content.
+bool may_have_kept(const Options& options) {
+  std::error_code error;
+  const std::string beside = captures_beside(options.scene);
+  if (!beside.empty() && std::filesystem::exists(beside, error)) return true;
+  return !options.cache_dir.empty() && std::filesystem::exists(options.cache_dir + "/captures", error);
 }
 
 }  // namespace
@@ -91,10 +100,11 @@ Result<ReflectionCaptures> bake_scene(Session& session, const Options& options, 
 }
 
 Status ensure_captures(Session& session, const Options& options, LogSink& log, const BakeProgress& progress) {
-  const bool indirect = wants_probes(session);
-  const bool wanted = wants_captures(session) || (indirect && session.world.view<const CubeProbe>().size() > 0);
-  // A grid of probes (bake --probes) may have been kept for a scene that demands no captures itself.
-  if (!wanted && !indirect) return {};
+  const bool wanted =
+      wants_captures(session) || (wants_probes(session) && session.world.view<const CubeProbe>().size() > 0);
+  // A scene that demands no captures may have kept ones with diffuse light (bake --probes). They are read whatever
+  // lighting.indirect is, because it may change later.
+  if (!wanted && !may_have_kept(options)) return {};
   const std::uint64_t content = capture_content(session.world);
   if (auto kept = load_kept(session, options, content, log)) {
     attach_captures(session.world, std::move(*kept));

@@ -152,6 +152,16 @@ TEST_F(DiffuseProbes, the_light_of_a_room_does_not_pass_its_wall) {
     for (std::uint32_t x = 0; x < settings.width; ++x) ASSERT_LT(greatest(pixel(dark, x, y)), 1e-3) << x << " " << y;
 }
 
+TEST_F(DiffuseProbes, of_a_matt_room_do_not_depend_on_the_mode_of_reflections) {
+  red_room();
+  probe(vec3(4.0f, 3.0f, 6.0f), {0.0, 1.5, 0.0});
+  bake(world);
+  const LinearPicture on = with("probes");
+  ASSERT_TRUE(renderer->knobs().set("reflections.mode", "off").ok());
+  EXPECT_EQ(with("probes").rgba, on.rgba);
+  EXPECT_NE(with("sky").rgba, on.rgba);
+}
+
 TEST_F(DiffuseProbes, where_nothing_shines_all_is_black) {
   room({0.0, 1.5, 0.0}, {2.0, 1.5, 3.0}, {});
   solid(matt(vec3(0.8f)), {0.0, 0.5, 0.0}, vec3(0.4f));
