@@ -30,15 +30,22 @@ struct LightTarget {
 };
 
 /// Destination of a view's picture. `image`, if set, belongs to the caller (swapchain, host): rgba8 or bgra8, UNORM
-/// (the shader encodes sRGB) or sRGB (the hardware does), of the view's size, created as a color_target. Its content is
+/// (the shader encodes sRGB) or sRGB (the hardware does), created as a color_target. Its content is
 /// discarded; after the frame it is ready for `after`, an access that its usage must allow. Without an image, the
 /// renderer draws into its own picture, see read_picture.
+///
+/// The picture has the view's size, or the size `width` and `height`: then a module that accumulates pictures over
+/// frames (Module::wants_jitter) enlarges it while it accumulates. `image` may have such a size only if the view shows
+/// a picture of its own geometry (may_enlarge()). The renderer's own picture keeps the view's size if no module
+/// enlarges it.
 struct ViewTarget {
   gpu::ImageHandle image;
   gpu::Access after = gpu::Access::color_target;
+  std::uint32_t width = 0;  ///< pixels of the picture, at least those of the view; 0: those of the view
+  std::uint32_t height = 0;
   /// Alternative to `image`, for images that exist only while a frame is recorded (gpu::Swapchain::acquire): called
-  /// after the frame has begun. The view takes the size of the returned image. If it returns none, the renderer draws
-  /// into its own picture.
+  /// after the frame has begun. The view takes the size of the returned image, or if `width` is set, the picture does.
+  /// If it returns none, the renderer draws into its own picture.
   std::function<Result<gpu::ImageHandle>()> acquire;
   /// Draws over the finished picture. Called while the frame is declared, after all modules have added their passes.
   /// Adds passes that write `picture`, and leaves `picture` at its newest version. Resources of the passes must live
@@ -57,5 +64,9 @@ struct ViewRequest {
   /// a pass has moved LitOutput to another image, and nothing in other frames.
   bool keep_linear = true;
 };
+
+/// Whether the view draws a picture of its own geometry: no capture, reference, visualizer, point of a lens or geometry
+/// of the host. Only such a view is jittered (RenderView::jitter), and only such a picture may be larger than its view.
+[[nodiscard]] bool may_enlarge(const ViewRequest& request);
 
 }  // namespace gloam

@@ -49,9 +49,12 @@ Status show_traced_view(Session& session, const CommandContext& context, const V
 
 /// The size of the next frame: that of the picture, times the knob's scale, which a budget may change.
 void set_size(const Session& session, const Options& options, ViewSettings& view) {
-  const double scale = view_scale(session.renderer->knobs());
-  view.width = scaled_size(options.width, scale);
-  view.height = scaled_size(options.height, scale);
+  set_scaled_size(view, options.width, options.height, view_scale(session.renderer->knobs()));
+}
+
+/// Of a frame whose picture a module may enlarge.
+ViewRequest request_of(const ViewSettings& view, const Options& options) {
+  return {.settings = view, .target = {.width = options.width, .height = options.height}};
 }
 
 /// Draws a frame within the budget, if there is one. samples: the frames before it. Warns if no setting fits.
@@ -65,7 +68,7 @@ Result<FrameSample> render_in_budget(Session& session, const CommandContext& con
         context.log.warning(budget_text(told.decision, *renderer.budget(told.effect)));
   }
   set_size(session, context.options, shown.view);
-  return session.render_frame({.settings = shown.drawn(), .target = {}});
+  return session.render_frame(request_of(shown.drawn(), context.options));
 }
 
 Result<std::vector<FrameSample>> render_frames(Session& session, const CommandContext& context, ShownView& shown) {
@@ -75,7 +78,7 @@ Result<std::vector<FrameSample>> render_frames(Session& session, const CommandCo
   for (std::uint32_t frame = 0; frame < options.frames; ++frame) {
     session.set_clock(options.time_s + frame * options.dt_s, options.dt_s);
     if (!has_budget(options)) {
-      GLOAM_TRY(run.draw({.settings = shown.drawn(), .target = {}}));
+      GLOAM_TRY(run.draw(request_of(shown.drawn(), options)));
       continue;
     }
     auto sample = render_in_budget(session, context, shown, samples);
@@ -103,7 +106,7 @@ Status fit_view(Session& session, ShownView& shown, FrameSample& last) {
 Status settle_view(Session& session, const CommandContext& context, ShownView& shown, FrameSample& last) {
   const ViewSettings& view = shown.view;
   if (shows_lists(*session.renderer, context.options.view))
-    GLOAM_TRY(draw_until_lists_fit([&] { return session.render_frame({.settings = view, .target = {}}); }, last));
+    GLOAM_TRY(draw_until_lists_fit([&] { return session.render_frame(request_of(view, context.options)); }, last));
   if (shown.traced) GLOAM_TRY(show_traced_view(session, context, *shown.traced, view, last));
   return shown.fit ? fit_view(session, shown, last) : Status();
 }

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "engine/core/text/formatted.h"
+#include "modules/lighting/outputs.h"
 #include "sandbox/output/file_io.h"
 #include "sandbox/play/display/screenshot_path.h"
 #include "sandbox/play/input/dropped_scene.h"
@@ -432,8 +433,16 @@ Result<ViewRequest> Player::request() {
   if (scale != drawn_scale_ && drawn_scale_ != 0.0) session_.renderer->free_idle_memory();
   drawn_scale_ = scale;
   const bool keeps = refinement_.now() == Refinement::Next::full;
-  if (!keeps && request.settings.width == settings_.width && request.settings.height == settings_.height) {
+  const bool whole = request.settings.width == settings_.width && request.settings.height == settings_.height;
+  if (!whole) request.settings.aspect = static_cast<float>(settings_.width) / static_cast<float>(settings_.height);
+  // Accumulated pictures are enlarged while they are accumulated, so they keep their history when the scale changes.
+  const bool enlarged = session_.renderer->knobs().value(kAntialiasing) == Antialiasing::taa && may_enlarge(request);
+  if (!keeps && (whole || enlarged)) {
     upscaler_.release();
+    if (!whole) {
+      request.target.width = settings_.width;
+      request.target.height = settings_.height;
+    }
     request.target.after = gpu::Access::present;
     request.target.acquire = [this] { return pictures_.acquire(); };
     request.target.overlay = [this](FrameGraph& graph, ImageRef& window) { return add_overlays(graph, window); };
@@ -441,7 +450,6 @@ Result<ViewRequest> Player::request() {
   }
   const auto image = upscaler_.image(request.settings.width, request.settings.height);
   if (!image.ok()) return image.error();
-  request.settings.aspect = static_cast<float>(settings_.width) / static_cast<float>(settings_.height);
   request.target.image = *image;
   request.target.after = gpu::Access::fragment_read;
   request.target.overlay = [this](FrameGraph& graph, ImageRef& picture) { return show_enlarged(graph, picture); };

@@ -70,8 +70,10 @@ struct AntialiasingConstants {
 
 /// Constants for accumulating a picture over frames.
 struct TemporalConstants {
-  uvec2 size;  // pixels of the picture
-  uint known;  // 0: there is no previous frame
+  uvec2 size;       // pixels of the picture
+  uvec2 view_size;  // of the frame, at most `size`
+  vec2 jitter;      // RenderView::jitter
+  uint known;       // 0: there is no previous frame
 };
 
 GLOAM_SHARED_END

@@ -33,11 +33,10 @@ float light_scale_of(const Frame& frame, const FrameView& own, const ViewStore& 
   return light_scale(scene_brightness(frame.world), has_last ? last->light_scale : 1.0f);
 }
 
-/// Whether the view is jittered (RenderView::jitter) if a module wants that.
-bool may_jitter(const ViewRequest& request) {
-  const ViewSettings& settings = request.settings;
-  return settings.purpose == ViewPurpose::main && settings.visualizer == "none" && !settings.lens &&
-         !request.target.light && !request.geometry;
+/// Whether the view is jittered (RenderView::jitter).
+bool jitters(const Frame& frame, const FrameView& own, const ModuleSet& modules) {
+  return !own.main && may_enlarge(own.request) &&
+         modules.any_needs(&Module::wants_jitter, frame.world, frame.knobs_of(own));
 }
 
 /// Sets the camera of the view's previous frame, and its jitter. Views that are no companions come first.
@@ -48,8 +47,7 @@ void set_motion(Frame& frame, FrameView& own, RendererParts& parts) {
     const auto main = std::ranges::find_if(
         frame.views, [&](const FrameView& other) { return other.request.settings.id == *own.main; });
     if (main->view->jittered) apply_jitter(view, main->view->jitter);
-  } else if (may_jitter(own.request) &&
-             parts.modules.any_needs(&Module::wants_jitter, frame.world, frame.knobs_of(own))) {
+  } else if (jitters(frame, own, parts.modules)) {
     apply_jitter(view, jitter_point(view.frame - view.cut_frame));
   }
 }
@@ -74,6 +72,8 @@ Status prepare_views(Frame& frame, RendererParts& parts) {
   const std::uint64_t number = frame.redraw != nullptr && slot.frames > 0 ? slot.frames - 1 : slot.frames;
   for (FrameView& own : frame.views) {
     const ViewSettings& settings = own.request.settings;
+    ViewTarget& target = own.request.target;
+    if (!target.image && !jitters(frame, own, parts.modules)) target.width = target.height = 0;
     if (!own.main) GLOAM_TRY(parts.views.prepare(id, own.request));
     own.view =
         std::make_unique<RenderView>(make_view(settings, number, parts.resources.cuts.declare(id, settings, number)));

@@ -27,6 +27,10 @@ Result<ViewRequest> request_of_last_frame(const RendererParts& parts, const Worl
   again.target = {};  // the image of a window may be gone
   again.settings.width = images.width;
   again.settings.height = images.height;
+  if (images.picture_size != uvec2(images.width, images.height)) {
+    again.target.width = images.picture_size.x;
+    again.target.height = images.picture_size.y;
+  }
   return again;
 }
 

@@ -36,7 +36,7 @@ Result<Picture> read_picture(const ViewStore& views, ViewId view, gpu::Device& d
   GLOAM_TRY(check_drawn(*images));
   const auto bytes = read_after_all_frames(device, images->picture);
   if (!bytes.ok()) return bytes.error();
-  Picture picture{images->width, images->height, {}};
+  Picture picture{images->picture_size.x, images->picture_size.y, {}};
   picture.rgba.resize(bytes->size());
   std::memcpy(picture.rgba.data(), bytes->data(), bytes->size());
   return picture;

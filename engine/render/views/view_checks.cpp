@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/render/views/view_checks.h"
 
+#include <algorithm>
 #include <set>
 #include <string>
 
@@ -50,6 +51,14 @@ Status acquire_target(const gpu::Device& device, ViewRequest& request) {
   request.target.image = *image;
   if (!*image) return {};
   const gpu::ImageDesc& desc = device.desc(*image);
+  if (request.target.width > 0) {
+    // A window that shrinks meanwhile may be smaller than the view.
+    request.target.width = desc.width;
+    request.target.height = desc.height;
+    request.settings.width = std::min(request.settings.width, desc.width);
+    request.settings.height = std::min(request.settings.height, desc.height);
+    return {};
+  }
   request.settings.width = desc.width;
   request.settings.height = desc.height;
   return {};
@@ -64,7 +73,11 @@ Status check_size(const ViewSettings& settings) {
 
 void check_target(const gpu::Device& device, const ViewRequest& request) {
   const ViewSettings& settings = request.settings;
+  const ViewTarget& target = request.target;
   const std::string view = "view " + std::to_string(settings.id.value);
+  GLOAM_ASSERT(target.width == 0 || (target.width >= settings.width && target.height >= settings.height),
+               view + " is " + size_text(settings.width, settings.height) + " pixels, its picture " +
+                   size_text(target.width, target.height) + ": a picture is not smaller than its view");
   if (request.geometry) {
     GLOAM_ASSERT(request.geometry->width() == settings.width && request.geometry->height() == settings.height,
                  view + " is " + size_text(settings.width, settings.height) + " pixels, the host's geometry " +
@@ -73,13 +86,21 @@ void check_target(const gpu::Device& device, const ViewRequest& request) {
   if (request.target.light) check_light_target(device, request, view);
   if (!request.target.image) return;
   const gpu::ImageDesc& desc = device.desc(request.target.image);
-  GLOAM_ASSERT(desc.width == settings.width && desc.height == settings.height,
+  const bool enlarged = request.target.width > 0 && may_enlarge(request) && desc.width == request.target.width &&
+                        desc.height == request.target.height;
+  GLOAM_ASSERT(enlarged || (desc.width == settings.width && desc.height == settings.height),
                view + " is " + size_text(settings.width, settings.height) + " pixels, its target image \"" + desc.name +
                    "\" " + size_text(desc.width, desc.height) + ": they must have one size");
   GLOAM_ASSERT(is_picture(desc.format), view + ": a target image is rgba8 or bgra8, UNORM or sRGB, and \"" + desc.name +
                                             "\" is " + std::string(name_of(desc.format)));
   GLOAM_ASSERT(gpu::has(desc.usage, gpu::ImageUsage::color_target),
                view + ": the target image \"" + desc.name + "\" was made without ImageUsage::color_target");
+}
+
+bool may_enlarge(const ViewRequest& request) {
+  const ViewSettings& settings = request.settings;
+  return settings.purpose == ViewPurpose::main && settings.visualizer == "none" && !settings.lens &&
+         !request.target.light && !request.geometry;
 }
 
 }  // namespace gloam

@@ -15,14 +15,15 @@ void ViewStore::destroy(gpu::ImageHandle& image) {
   image = {};
 }
 
-Status ViewStore::make_image(ViewImages& view, gpu::ImageHandle& image, const char* name, gpu::Format format) {
+Status ViewStore::make_image(ViewImages& view, gpu::ImageHandle& image, const char* name, gpu::Format format,
+                             const uvec2& size) {
   if (image) return {};
   gpu::ImageDesc desc;
   desc.name = name;
   desc.module = "engine";
   desc.format = format;
-  desc.width = view.width;
-  desc.height = view.height;
+  desc.width = size.x;
+  desc.height = size.y;
   desc.usage = gpu::ImageUsage::color_target | gpu::ImageUsage::transfer_source;
   if (format == gpu::Format::rgba16_float)
     desc.usage = desc.usage | gpu::ImageUsage::sampled | gpu::ImageUsage::storage;
@@ -39,14 +40,17 @@ Status ViewStore::prepare(std::uint64_t world, const ViewRequest& request) {
   view.world = world;
   if (view.width != settings.width || view.height != settings.height) {
     destroy(view.lit);
-    destroy(view.picture);
     view.width = settings.width;
     view.height = settings.height;
   }
+  const ViewTarget& target = request.target;
+  const uvec2 size = target.width > 0 ? uvec2(target.width, target.height) : uvec2(settings.width, settings.height);
+  if (size != view.picture_size) destroy(view.picture);
+  view.picture_size = size;
   const bool has_target = request.target.image || request.target.light;
   if (has_target) destroy(view.picture);
-  GLOAM_TRY(make_image(view, view.lit, "lit", gpu::Format::rgba16_float));
-  if (!has_target) GLOAM_TRY(make_image(view, view.picture, "picture", gpu::Format::rgba8_srgb));
+  GLOAM_TRY(make_image(view, view.lit, "lit", gpu::Format::rgba16_float, {view.width, view.height}));
+  if (!has_target) GLOAM_TRY(make_image(view, view.picture, "picture", gpu::Format::rgba8_srgb, size));
   return {};
 }
 

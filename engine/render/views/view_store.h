@@ -10,6 +10,7 @@
 
 #include "engine/core/result.h"
 #include "engine/gpu/device.h"
+#include "engine/math/types.h"
 #include "engine/render/view_request.h"
 
 namespace gloam {
@@ -18,6 +19,7 @@ namespace gloam {
 struct ViewImages {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
+  uvec2 picture_size = uvec2(0);  ///< of `picture`: the view's, or ViewTarget::width and height
   gpu::ImageHandle lit;           ///< rgba16f, cd/m² · light_scale
   float light_scale = 1.0f;       ///< RenderView::light_scale of the frame that drew `lit`
   bool lit_is_last = false;       ///< `lit` holds the light after all passes of the last frame
@@ -65,7 +67,8 @@ class ViewStore {
 
  private:
   void release_if(const std::function<bool(std::uint32_t id, const ViewImages&)>& unwanted);
-  [[nodiscard]] Status make_image(ViewImages& view, gpu::ImageHandle& image, const char* name, gpu::Format format);
+  [[nodiscard]] Status make_image(ViewImages& view, gpu::ImageHandle& image, const char* name, gpu::Format format,
+                                  const uvec2& size);
   void destroy(gpu::ImageHandle& image);
 
   gpu::Device& device_;

@@ -101,7 +101,8 @@ Result<FramePictures> draw_supersampled(const ReferenceInput& input) {
   if (!input.redraw) return Error{ErrorKind::usage, "a supersampled picture needs a frame that can be drawn again"};
   const std::string identity = identity_of(input, samples_of(input));
   FramePictures mean;
-  mean.picture = input.frame.picture;
+  mean.picture = {input.view.width, input.view.height, {}};  // the frame's picture may be larger than its view
+  mean.picture.rgba.resize(std::size_t{4} * input.view.width * input.view.height);
   if (const auto kept = input.store == nullptr ? std::nullopt : input.store->load(identity);
       kept && kept->size() == mean.picture.rgba.size()) {
     mean.picture.rgba.assign(kept->begin(), kept->end());

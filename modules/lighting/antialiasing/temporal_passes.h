@@ -6,12 +6,12 @@
 
 namespace gloam {
 
-/// Whether the picture of this view is accumulated over frames. Views that are not jittered are antialiased by
-/// lighting.antialiasing=smaa instead (antialiases).
-[[nodiscard]] bool accumulates(const FrameBuilder& frame);
+/// Whether the picture of this view is accumulated over frames. It always is if it is larger than the view. Other views
+/// that are not jittered are antialiased by lighting.antialiasing=smaa instead (antialiases).
+[[nodiscard]] bool accumulates(FrameBuilder& frame);
 
-/// Accumulates the displayed light and writes the picture to TargetOutput. shown: of kShownFormat and the view's size;
-/// its alpha is the share of the light that has no motion. dither: see add_antialiasing_passes.
+/// Accumulates the displayed light at the size of TargetOutput, and writes the picture there. shown: of kShownFormat
+/// and the view's size; its alpha is the share of the light that has no motion. dither: see add_antialiasing_passes.
 void add_temporal_passes(FrameBuilder& frame, ImageRef shown, bool dither);
 
 }  // namespace gloam

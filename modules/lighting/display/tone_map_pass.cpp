@@ -61,7 +61,8 @@ void add_tone_map_passes(FrameBuilder& frame) {
   constants.metered = exposure.metered ? 1 : 0;
 
   const ImageRef table = add_tone_table_pass(frame);
-  const bool smooth = antialiases(frame), temporal = accumulates(frame), dither = frame.knobs().value(kDither);
+  const bool temporal = accumulates(frame), smooth = temporal || antialiases(frame),
+             dither = frame.knobs().value(kDither);
   const std::uint32_t output = temporal ? 3u : (smooth ? 2u : (dither ? 1u : 0u));  // kOutput of tone_map.frag
   ImageRef shown = smooth ? create_view_image(frame, "shown", kShownFormat) : target.color;
   {

@@ -70,6 +70,13 @@ std::uint32_t scaled_size(std::uint32_t size, double scale) {
   return std::max(static_cast<std::uint32_t>(std::lround(size * scale)), 1u);
 }
 
+void set_scaled_size(ViewSettings& view, std::uint32_t width, std::uint32_t height, double scale) {
+  view.width = scaled_size(width, scale);
+  view.height = scaled_size(height, scale);
+  const bool whole = view.width == width && view.height == height;
+  view.aspect = whole ? 0.0f : static_cast<float>(width) / static_cast<float>(height);
+}
+
 Picture enlarged(const Picture& picture, std::uint32_t width, std::uint32_t height) {
   if (picture.width == width && picture.height == height) return picture;
   const std::vector<float> values(picture.rgba.begin(), picture.rgba.end());

@@ -30,7 +30,8 @@ std::vector<ModuleCost> module_costs(const FrameSample& sample) {
 SessionCosts::SessionCosts(Session& session, const Options& options)
     : session_(session),
       options_(options),
-      request_{.settings = session.view_settings(options.width, options.height, options.view), .target = {}},
+      request_{.settings = session.view_settings(options.width, options.height, options.view),
+               .target = {.width = options.width, .height = options.height}},
       store_(options.out.empty() ? nullptr : make_reference_store(options.out + "/references")) {}
 
 std::vector<ReferenceInfo> SessionCosts::references() const {
@@ -57,9 +58,7 @@ Status SessionCosts::settle_memory() {
 
 Result<FrameCost> SessionCosts::draw(std::int32_t index) {
   session_.set_clock(options_.time_s + index * options_.dt_s, options_.dt_s);
-  const double scale = view_scale(knobs());
-  request_.settings.width = scaled_size(options_.width, scale);
-  request_.settings.height = scaled_size(options_.height, scale);
+  set_scaled_size(request_.settings, options_.width, options_.height, view_scale(knobs()));
   // What frames keep from those before them must not be of another value of a knob.
   request_.settings.camera_cut = index != index_ && index != index_ + 1;
   auto sample = session_.render_frame(request_);
