@@ -169,8 +169,9 @@ void main() {
   vec3 before = from_ycocg(history);
   if (kEnlarges != 0u && state.frames < kTrusted) {
     // Points alone would show as dots in pixels whose neighbours have none.
-    a.color = mix(a.filtered, a.color, state.frames / kTrusted);
-    a.weight = max(a.weight, 1.0);
+    float trust = state.frames / kTrusted;
+    a.color = mix(a.filtered, a.color, trust);
+    a.weight = floor(mix(2.0, a.weight, trust) + 0.5);
   }
   vec3 color = state.frames > 0.0 ? mix(before, a.color, a.weight / (a.weight + state.frames)) : a.color;
   state.frames = min(state.frames + a.weight, kMostFrames);
