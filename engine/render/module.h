@@ -179,6 +179,9 @@ class Module {
   /// no captures, references, visualizers, points of a lens or geometry of the host. Companions have the jitter of
   /// their view.
   [[nodiscard]] virtual bool wants_jitter(const World&, const KnobRegistry&) const { return false; }
+  /// How many frames of a view at rest it takes until its picture is complete: more than 0 if the module accumulates
+  /// pictures. Asked by measurements, for the knobs of the frame.
+  [[nodiscard]] virtual std::uint32_t frames_to_rest(const World&, const KnobRegistry&) const { return 0; }
   /// Whether the module's passes read GeometryOutputs::smooth_surfaces. Called like needs_motion.
   [[nodiscard]] virtual bool needs_smooth_surfaces(const World&, const KnobRegistry&) const { return false; }
   /// Whether the module changes the picture from frame to frame while camera, knobs and components stay the same: it

@@ -65,6 +65,9 @@ class CostSubject {
   /// Draws frame `index` of the measured sequence and waits for it. The sequence begins with 0; frames before it have a
   /// negative index. The same index shows the same moment.
   [[nodiscard]] virtual Result<FrameCost> draw(std::int32_t index) = 0;
+  /// Frames at the moment of the last one until the picture is complete: more than 0 with settings that accumulate
+  /// pictures.
+  [[nodiscard]] virtual std::uint32_t frames_to_rest() { return 0; }
   /// Called once, with the user's settings, before memory is asked for: frees what only earlier frames needed, such as
   /// the first ones and those with exact values. May draw frames for that.
   [[nodiscard]] virtual Status settle_memory() { return {}; }

@@ -9,6 +9,7 @@
 
 #include "engine/render/camera/view_constants.h"
 #include "modules/lighting/antialiasing/reference.h"
+#include "modules/lighting/antialiasing/temporal_passes.h"
 #include "modules/lighting/components.h"
 #include "modules/lighting/display/metering.h"
 #include "modules/lighting/display/tone_reference.h"
@@ -68,6 +69,9 @@ class LightingModule final : public Module {
 
   [[nodiscard]] bool changes_at_rest(const World&, const KnobRegistry& knobs) const override {
     return knobs.value(kExposure) == ExposureMode::adapting;
+  }
+  [[nodiscard]] std::uint32_t frames_to_rest(const World&, const KnobRegistry& knobs) const override {
+    return knobs.value(kAntialiasing) == Antialiasing::taa ? kAccumulatedFrames : 0;
   }
 
   [[nodiscard]] bool essential() const override { return true; }

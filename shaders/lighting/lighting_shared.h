@@ -5,6 +5,8 @@
 
 #include "shaders/common/prelude.h"
 
+#define GLOAM_ACCUMULATED_FRAMES 16  // that an accumulated picture is the mean of at rest, at most 63
+
 GLOAM_SHARED_BEGIN
 
 /// Sky and ground, which light a scene besides its lights. Colours in cd/m² · light_scale.

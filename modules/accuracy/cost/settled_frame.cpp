@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "modules/accuracy/cost/settled_frame.h"
 
+#include <cstdint>
+
 namespace gloam {
 namespace {
 
@@ -13,6 +15,7 @@ constexpr std::int32_t kSettlingFrames = 3;
 
 Status settle(CostSubject& subject) {
   for (std::int32_t index = 1 - kSettlingFrames; index <= 0; ++index) GLOAM_TRY(subject.draw(index));
+  for (std::uint32_t more = subject.frames_to_rest(); more > 0; --more) GLOAM_TRY(subject.draw(0));
   return {};
 }
 

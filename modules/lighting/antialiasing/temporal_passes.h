@@ -2,9 +2,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+
 #include "engine/render/frame_builder.h"
+#include "shaders/lighting/lighting_shared.h"
 
 namespace gloam {
+
+/// Frames that the picture of a view at rest is the mean of.
+inline constexpr std::uint32_t kAccumulatedFrames = GLOAM_ACCUMULATED_FRAMES;
 
 /// Whether the picture of this view is accumulated over frames. It always is if it is larger than the view. Other views
 /// that are not jittered are antialiased by lighting.antialiasing=smaa instead (antialiases).

@@ -36,7 +36,7 @@ const float kDeviations = 1.0;
 const float kDeviationsAtRest = kEnlarges != 0u ? 1.5 : 1.0;
 const float kRounding = 0.0005;  // of displayed light, that the history may differ by as well
 // That the mean is taken over, at rest and where the picture moves; at most 63.
-const float kMostFrames = kEnlarges != 0u ? 63.0 : 16.0;
+const float kMostFrames = kEnlarges != 0u ? 63.0 : float(GLOAM_ACCUMULATED_FRAMES);
 const float kMostFramesMoving = 12.0;
 // Frames in a row out of range, at rest, until the history is limited.
 const float kPatience = kEnlarges != 0u ? 7.0 : 4.0;
