@@ -305,7 +305,7 @@ void Player::choose_refinement(const WindowInput& input) {
   const bool moves = !stands && scene_moves(session_);
   // A chosen scale stays, as does that of a budget, whose setting the window shows; and so do measured runs.
   const bool wanted = scale_.setting() == 0.0 && !options_.budget_ms && options_.frames == 0;
-  if (!wanted || moves || wipe_.on() || moving_scale() == 1.0) return refinement_.restart();
+  if (!wanted || moves || wipe_.on() || heat_.is_due() || moving_scale() == 1.0) return refinement_.restart();
   PictureMoment moment = picture_moment(session_, settings_, stands ? time_s_ : 0.0);
   moment.numbers.push_back(static_cast<double>(reloads_));
   moment.numbers.push_back(progress_.left > 0 ? 1.0

@@ -24,7 +24,7 @@ inline constexpr ChoiceKnob<float> kHeatRange{
     .name = "views.range",
     .meaning =
         "factor on the value at the end of the colour scales of views; fit: the smallest one that fits what is "
-        "shown, for counts the smallest end of 5, 10, 15, 20, 25, 30, 40, 50, 100 … that does; play sets fit",
+        "shown, for counts the smallest end of 5, 10, 15, 20, 25, 30, 40, 50, 60, 80, 100 … that does; play sets fit",
     .choices = {{"1", 1.0f},
                 {"fit", kFitHeatRange},
                 {"1/16", 1.0f / 16.0f},

@@ -18,9 +18,13 @@ class HeatFollower {
   /// Before each frame that may have another range. shown: the last frame was shown.
   [[nodiscard]] Status choose(Session& session, ViewSettings& view, bool shown);
 
+  /// The first fit to the present view is still to come, so its picture is not the final one.
+  [[nodiscard]] bool is_due() const { return due_; }
+
  private:
   std::string fitted_view_;  ///< the visualizer that the range was fitted to; empty: none
   std::uint32_t frames_to_fit_ = 0;
+  bool due_ = false;
 };
 
 }  // namespace gloam

@@ -52,9 +52,11 @@ float fitting_factor(std::span<const float> numbers, double most, std::span<cons
 
 float fitting_factor_of_counts(std::span<const float> numbers, double most) {
   GLOAM_ASSERT(most > 0.0, "a colour scale has an end above 0");
-  constexpr std::array kEnds = {5.0, 10.0, 15.0, 20.0, 25.0, 30.0, 40.0};
+  constexpr double kLeastEnd = 5.0;
+  constexpr std::array kEnds = {10.0, 15.0, 20.0, 25.0, 30.0, 40.0, 50.0, 60.0, 80.0};
   const double largest = largest_shown(numbers);
   if (!(largest > 0.0)) return 1.0f;
+  if (largest <= kLeastEnd) return static_cast<float>(kLeastEnd / most);
   double unit = 1.0;
   while (kEnds.back() * unit < largest) unit *= 10.0;
   for (const double end : kEnds)

@@ -16,7 +16,7 @@ namespace gloam {
 [[nodiscard]] float fitting_factor(std::span<const float> numbers, double most, std::span<const float> factors);
 
 /// The same for counts, without a choice of factors: the end is a multiple of 5, so that a legend has whole numbers at
-/// all stops of the colours, and one of 5, 10, 15, 20, 25, 30, 40, or ten times as much, and so on.
+/// all stops of the colours: 5, or 10, 15, 20, 25, 30, 40, 50, 60, 80, or one of these times a power of ten.
 [[nodiscard]] float fitting_factor_of_counts(std::span<const float> numbers, double most);
 
 /// Whether a visualizer, NAME or NAME:ARGUMENT, shows numbers by the colours of a scale.

@@ -226,14 +226,15 @@ class Render(ProgramCase):
         self.assertTrue(pictures[2] == (self.folder / "last.png").read_bytes(), "the last frame of a run is the same")
         self.assertFalse(pictures[0] == pictures[2], "wind moves the grass")
 
-    def test_a_fitting_range_is_the_smallest_that_holds_the_numbers(self):
-        def drawn(value):
-            self.expect(0, "render", "builtin:shadows", *SMALL, "--view", "lights_accurate", "--set", f"views.range={value}", "--out", "v.png")
-            return self.bytes_of("v.png")
-
-        fitted = drawn("fit")  # two local lights; the scale ends at 31
-        self.assertTrue(fitted == drawn("1/8"))
-        self.assertFalse(fitted == drawn("1/16"))
+    def test_a_fitting_range_of_counts_ends_at_5_so_that_one_and_two_lights_have_colours_of_the_scale(self):
+        """Two local lights. The scale's colours are at 0, 1 … 5: blue for one light, cyan for two."""
+        self.expect(0, "render", "builtin:shadows", *SMALL, "--view", "lights_accurate", "--set", "views.range=fit", "--out", "v.png")
+        picture = read_png(self.folder / "v.png")
+        colors = [picture.pixel(x, y) for y in range(40) for x in range(160)]  # above the legend
+        srgb = lambda *linear: tuple(round(255 * (12.92 * c if c <= 0.0031308 else 1.055 * c ** (1 / 2.4) - 0.055)) for c in linear)
+        for lights, color in ((1, srgb(0.02, 0.05, 0.6)), (2, srgb(0.0, 0.45, 0.6))):
+            near = sum(all(abs(a - b) <= 1 for a, b in zip(color, shown)) for shown in colors)
+            self.assertGreater(near, 50, f"pixels with {lights} lights")
 
     def test_a_sequence_has_one_exposure(self):
         (self.folder / "lamp.gltf").write_text(json.dumps(approaching_lamp()), encoding="utf-8")

@@ -23,7 +23,7 @@ def write_scene(path):
     """A wall behind a lamp, and a camera that looks along -Z."""
     wall = struct.pack("<12f", -4, -4, -1, 4, -4, -1, 4, 4, -1, -4, 4, -1) + struct.pack("<6H", 0, 1, 2, 0, 2, 3)
     path.write_text(json.dumps({
-        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1, 2]}],
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1, 2], "extras": {"gloam.exposure": 4}}],
         "extensionsUsed": ["KHR_lights_punctual"],
         "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": 60, "range": 20}]}},
         "nodes": [{"mesh": 0}, {"camera": 0, "translation": [0, 0, DISTANCE_M]},

@@ -58,9 +58,10 @@ TEST(FittingFactor, of_counts_ends_at_the_next_of_some_multiples_of_5) {
                                           {31.0f, 40.0},
                                           {40.0f, 40.0},
                                           {41.0f, 50.0},
-                                          {51.0f, 100.0},
+                                          {51.0f, 60.0},
+                                          {81.0f, 100.0},
                                           {399.0f, 400.0},
-                                          {401.0f, 500.0},
+                                          {601.0f, 800.0},
                                           {12345.0f, 15000.0}})
     EXPECT_NEAR(end(largest), expected, 1e-5 * expected) << largest;
   EXPECT_EQ(fitting_factor_of_counts({}, 31.0), 1.0f);
