@@ -59,6 +59,7 @@ class FakeSubject final : public CostSubject {
     const double gpu_ms = knobs_.value(kSamples) + slower_by * frames_drawn;
     return FrameCost{.cpu_ms = 1.0, .gpu_ms = gpu_ms, .modules = {{"other", 7.0, 7.0}, {"fake", 0.5, gpu_ms / 2.0}}};
   }
+  [[nodiscard]] std::uint32_t frames_to_rest() override { return rest; }
   [[nodiscard]] Status settle_memory() override {
     frames_before_settling.push_back(frames_drawn);
     return {};
@@ -101,6 +102,7 @@ class FakeSubject final : public CostSubject {
   int counted_frames = 0;
   int references_drawn = 0;
   std::vector<std::int32_t> indices;  ///< of all drawn frames
+  std::uint32_t rest = 0;             ///< frames_to_rest
   int fail_after = 0;
   double slower_by = 0.0;  ///< ms by which each frame is slower than the one before
   std::vector<ReferenceInfo> references_;

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <functional>
@@ -132,6 +133,13 @@ TEST_F(MeasureCosts, time_goes_on_up_to_a_picture_and_while_frames_are_timed) {
   std::size_t repeated = 0;
   for (std::size_t i = 1; i < drawn.size(); ++i) repeated += drawn[i] == drawn[i - 1] ? 1 : 0;
   EXPECT_EQ(repeated, 1u) << "where times begin; the picture of the exact value is known from the reference";
+}
+
+TEST_F(MeasureCosts, pictures_that_are_accumulated_come_to_rest_before_they_are_read) {
+  subject_.rest = 5;
+  measure();
+  const std::vector<std::int32_t> settled = {-2, -1, 0, 0, 0, 0, 0, 0};
+  EXPECT_EQ(std::ranges::search(subject_.indices, settled).size(), settled.size());
 }
 
 TEST_F(MeasureCosts, memory_settles_once_before_it_is_asked_for) {
