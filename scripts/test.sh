@@ -39,6 +39,6 @@ run_tests release build release "$@"
 # The shaders are those of the release build: compiling them again would take a minute.
 configure asan build-asan -DGLOAM_SHADERS_FROM="$PWD/build"
 build build-asan gloam_sanitize_tests
-GLOAM_FUZZ_SECONDS=${GLOAM_FUZZ_SECONDS:-60} run_tests asan build-asan asan "$@"
+GLOAM_FUZZ_SECONDS=${GLOAM_FUZZ_SECONDS:-30} run_tests asan build-asan asan "$@"
 
 exec python3 -B scripts/test_report.py "${reports[@]}"
