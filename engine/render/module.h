@@ -180,13 +180,13 @@ class Module {
   /// their view.
   [[nodiscard]] virtual bool wants_jitter(const World&, const KnobRegistry&) const { return false; }
   /// How many frames of a view at rest it takes until its picture is complete: more than 0 if the module accumulates
-  /// pictures. Asked by measurements, for the knobs of the frame.
+  /// pictures. Tools draw as many before they keep or judge a picture. Called like needs_casters.
   [[nodiscard]] virtual std::uint32_t frames_to_rest(const World&, const KnobRegistry&) const { return 0; }
   /// Whether the module's passes read GeometryOutputs::smooth_surfaces. Called like needs_motion.
   [[nodiscard]] virtual bool needs_smooth_surfaces(const World&, const KnobRegistry&) const { return false; }
   /// Whether the module changes the picture from frame to frame while camera, knobs and components stay the same: it
   /// simulates, or adapts to earlier frames. Tools then do not keep a picture of the world in place of drawing it.
-  /// Accumulation that settles within 8 frames does not count. Called like needs_casters.
+  /// Accumulation that comes to rest (frames_to_rest) does not count. Called like needs_casters.
   [[nodiscard]] virtual bool changes_at_rest(const World&, const KnobRegistry&) const { return false; }
   /// Whether a frame without the module makes no sense. Then frames wait for its pipelines even with
   /// Readiness::background.

@@ -123,6 +123,10 @@ bool Renderer::changes_at_rest(const World& world) const {
   return parts_->modules.any_needs(&Module::changes_at_rest, world, parts_->knobs.set);
 }
 
+std::uint32_t Renderer::frames_to_rest(const World& world) const {
+  return parts_->modules.frames_to_rest(world, parts_->knobs.set);
+}
+
 void Renderer::set_readiness(Readiness readiness) {
   parts_->check_idle("set_readiness");
   parts_->options.readiness = readiness;

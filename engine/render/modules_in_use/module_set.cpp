@@ -53,6 +53,13 @@ bool ModuleSet::any_needs(Question question, const World& world, const KnobRegis
   return false;
 }
 
+std::uint32_t ModuleSet::frames_to_rest(const World& world, const KnobRegistry& knobs) const {
+  std::uint32_t most = 0;
+  for (std::size_t i = 0; i < modules_.size(); ++i)
+    if (uses_[i].demand.needed) most = std::max(most, modules_[i]->frames_to_rest(world, knobs));
+  return most;
+}
+
 bool ModuleSet::may_draw(std::size_t index, const ViewQuery& query) const {
   const Module& module = *modules_[index];
   return std::ranges::find(query.without, module.name()) == query.without.end() && uses_[index].demand.needed &&

@@ -56,6 +56,8 @@ class ModuleSet {
   [[nodiscard]] std::vector<Module*> demanded() const;
   /// Whether `question` is true for any module that the world demands.
   [[nodiscard]] bool any_needs(Question question, const World& world, const KnobRegistry& knobs) const;
+  /// The most frames that any module which the world demands takes to rest (Module::frames_to_rest).
+  [[nodiscard]] std::uint32_t frames_to_rest(const World& world, const KnobRegistry& knobs) const;
   /// Whether `question` is true for any module that may draw in the view: demanded by the world and the view, and not
   /// left out.
   [[nodiscard]] bool view_needs(Question question, const ViewQuery& query) const;

@@ -2,16 +2,18 @@
 // SPDX-License-Identifier: MIT
 #include "sandbox/play/display/refinement.h"
 
+#include <algorithm>
+
 namespace gloam {
 
-Refinement::Next Refinement::next(const PictureMoment& now, double frame_s, bool active) {
+Refinement::Next Refinement::next(const PictureMoment& now, double frame_s, bool active, std::uint32_t frames) {
   if (now != moment_) {
     moment_ = now;
     restart();
     return now_;
   }
   rested_s_ = active ? 0.0 : rested_s_ + frame_s;
-  if (full_frames_ == kFullFrames)
+  if (full_frames_ >= std::max(kFullFrames, frames))
     now_ = Next::kept;
   else if (rested_s_ >= kRestS)
     now_ = Next::full;

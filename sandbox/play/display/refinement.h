@@ -9,10 +9,10 @@
 namespace gloam {
 
 /// Decides when a picture that is drawn at a reduced scale is refined to the window's size: when its moment has been
-/// the same and the user has done nothing for kRestS. kFullFrames frames are then drawn at full size, so that effects
-/// which accumulate over frames settle, and the last one is kept until the moment changes. While the user moves the
-/// pointer, for example over the panel, the kept picture is shown and no frame is drawn, so that the panel answers at
-/// once.
+/// the same and the user has done nothing for kRestS. kFullFrames frames or more are then drawn at full size, so that
+/// effects which accumulate over frames settle, and the last one is kept until the moment changes. While the user moves
+/// the pointer, for example over the panel, the kept picture is shown and no frame is drawn, so that the panel answers
+/// at once.
 class Refinement {
  public:
   static constexpr double kRestS = 0.25;
@@ -23,8 +23,9 @@ class Refinement {
     full,     ///< draw at the window's size
     kept,     ///< show the last full picture again
   };
-  /// Before each frame. frame_s: since the last frame. active: the user has done something since then.
-  Next next(const PictureMoment& now, double frame_s, bool active);
+  /// Before each frame. frame_s: since the last frame. active: the user has done something since then. frames: that the
+  /// picture takes until it is complete (Renderer::frames_to_rest).
+  Next next(const PictureMoment& now, double frame_s, bool active, std::uint32_t frames = 0);
   /// What next() has said for this frame; reduced after a restart.
   [[nodiscard]] Next now() const { return now_; }
   /// A frame of Next::full was shown.

@@ -14,7 +14,7 @@
 
 namespace gloam {
 
-/// The picture on the exact side of a wipe: one that is shown, and one that is drawn meanwhile.
+/// The picture on the right side of a wipe: one that is shown, and one that is drawn meanwhile.
 class SidePicture {
  public:
   explicit SidePicture(gpu::Device& device) : device_(device), pipelines_(device), upscaler_(device) {}

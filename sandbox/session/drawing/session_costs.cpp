@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "sandbox/session/drawing/session_costs.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "sandbox/session/drawing/enlarged.h"
@@ -76,14 +75,6 @@ Result<FrameCost> SessionCosts::draw(std::int32_t index) {
                    .gpu_ms = sample->report.gpu_ms,
                    .processor_ms = sample->processor_ms,
                    .modules = module_costs(*sample)};
-}
-
-std::uint32_t SessionCosts::frames_to_rest() {
-  std::uint32_t most = 0;
-  for (const auto& module : session_.renderer->modules())
-    if (module->demand(session_.world, nullptr).needed)
-      most = std::max(most, module->frames_to_rest(session_.world, session_.renderer->knobs()));
-  return most;
 }
 
 Result<std::uint64_t> SessionCosts::gpu_bytes() {

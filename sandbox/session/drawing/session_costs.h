@@ -23,7 +23,7 @@ class SessionCosts final : public CostSubject {
   [[nodiscard]] std::vector<ReferenceInfo> references() const override;
   [[nodiscard]] std::vector<MeasureInfo> measures() const override;
   [[nodiscard]] Result<FrameCost> draw(std::int32_t index) override;
-  [[nodiscard]] std::uint32_t frames_to_rest() override;
+  [[nodiscard]] std::uint32_t frames_to_rest() override { return session_.renderer->frames_to_rest(session_.world); }
   [[nodiscard]] Status settle_memory() override;
   [[nodiscard]] Result<std::uint64_t> gpu_bytes() override;
   [[nodiscard]] FrameCounters counters() override { return session_.renderer->report().counters; }

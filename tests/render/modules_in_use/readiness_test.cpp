@@ -105,7 +105,15 @@ TEST_P(ReadinessOf, toggling_grows_nothing) {
   EXPECT_EQ(gate_->asked_here(GetParam()), 0u);
 }
 
-class ReadinessFrames : public BackgroundRenderer {};
+class ReadinessFrames : public BackgroundRenderer {
+ protected:
+  /// Whether the last frame used the variant of fog that reduces by this divisor.
+  [[nodiscard]] bool reduces_to(const std::string& divisor) {
+    return std::ranges::any_of(last_commands(), [&](const std::string& line) {
+      return line.find("fog/reduce.frag kDivisor=" + divisor) != std::string::npos;
+    });
+  }
+};
 
 TEST_F(ReadinessFrames, a_renderer_that_waited_stops_waiting_and_names_what_it_makes) {
   gate_->open();
@@ -133,11 +141,6 @@ TEST_F(ReadinessFrames, values_that_were_set_while_it_waited_stay_when_it_waits_
   frames();
   frames_until_there_are_passes_of("fog");
   frames_until_nothing_is_pending();
-  const auto reduces_to = [&](const char* divisor) {
-    return std::ranges::any_of(last_commands(), [&](const std::string& line) {
-      return line.find("fog/reduce.frag kDivisor=" + std::string(divisor)) != std::string::npos;
-    });
-  };
   renderer_->set_readiness(Readiness::wait);
   ASSERT_TRUE(renderer_->knobs().set("fog.resolution", "half").ok());
   frames();
@@ -171,11 +174,6 @@ TEST_F(ReadinessFrames, a_knob_waits_for_its_pipelines_and_the_old_variant_stays
   frames();
   frames_until_there_are_passes_of("fog");
   frames_until_nothing_is_pending();
-  const auto reduces_to = [&](const char* divisor) {
-    return std::ranges::any_of(last_commands(), [&](const std::string& line) {
-      return line.find("fog/reduce.frag kDivisor=" + std::string(divisor)) != std::string::npos;
-    });
-  };
   EXPECT_TRUE(reduces_to("4"));
   gate_->close();
   ASSERT_TRUE(renderer_->knobs().set("fog.resolution", "half").ok());

@@ -28,6 +28,19 @@ TEST(Refinement, draws_at_full_size_after_a_rest_and_then_keeps_the_picture) {
   for (int i = 0; i < 100; ++i) EXPECT_EQ(step(refinement, 1.0), Next::kept);
 }
 
+TEST(Refinement, draws_as_many_full_frames_as_an_accumulated_picture_takes) {
+  Refinement refinement;
+  const auto next = [&] {
+    const Next said = refinement.next({.numbers = {1.0}, .visualizer = "none"}, kTurnS, false, 16);
+    if (said == Next::full) refinement.shown_full();
+    return said;
+  };
+  int full = 0;
+  for (int i = 0; i < 40; ++i) full += next() == Next::full ? 1 : 0;
+  EXPECT_EQ(full, 16);
+  EXPECT_EQ(next(), Next::kept);
+}
+
 TEST(Refinement, returns_to_the_reduced_scale_in_the_frame_in_which_something_moves) {
   Refinement refinement;
   for (int i = 0; i < 20; ++i) step(refinement, 1.0);
