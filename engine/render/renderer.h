@@ -92,8 +92,8 @@ class Renderer {
   /// Whether a module that the last frame's world demanded changes the picture of this world while nothing else does
   /// (Module::changes_at_rest). False before the first frame. Animations of the scene are not asked about.
   [[nodiscard]] bool changes_at_rest(const World& world) const;
-  /// How many frames of a view of this world at rest it takes until its picture is complete (Module::frames_to_rest), of
-  /// the same modules.
+  /// How many frames of a view of this world at rest it takes until its picture is complete (Module::frames_to_rest),
+  /// of the same modules.
   [[nodiscard]] std::uint32_t frames_to_rest(const World& world) const;
   /// Waits until the GPU has finished everything submitted.
   [[nodiscard]] Status wait();
