@@ -163,6 +163,7 @@ PanelScene PlayPanel::scene_of(const PlayControls& controls, const ViewSettings&
       .save_lights = [this,
                       name = controls.scene] { said_ = lights_.save("out/" + scene_stem(name) + ".lights.json"); },
       .picked = picked_,
+      .pick = pick_,
       .save_config = [this, scene = controls.scene] { save_config(scene); },
       .copy_command =
           [this, &controls, &view] {
@@ -224,6 +225,7 @@ void PlayPanel::set_lens(float focus_m, float f_number) {
 void PlayPanel::pick(const WindowInput& input, const ViewSettings& view, double scale) {
   const auto pixel = pixel_at(view, {input.pointer_x, input.pointer_y, scale});
   if (!pixel) return;
+  ++pick_;
   const auto lines = session_.renderer->pick(session_.world, view.id, pixel->x, pixel->y);
   picked_ = lines.ok() ? *lines : std::vector<std::string>{lines.error().message};
   const auto position = session_.renderer->pick_position(session_.world, view.id, pixel->x, pixel->y);

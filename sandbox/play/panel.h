@@ -105,6 +105,7 @@ class PlayPanel {
   std::vector<std::string> cameras_;
   std::vector<std::string> warnings_;  ///< PanelScene::warnings
   std::vector<std::string> picked_;
+  std::uint64_t pick_ = 0;                     ///< PanelScene::pick
   float picked_m_ = 0.0f;                      ///< PanelScene::picked_m
   glm::dvec2 picked_place_ = glm::dvec2(0.0);  ///< in the window
   std::optional<dvec3> picked_position_;

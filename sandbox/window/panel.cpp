@@ -207,6 +207,12 @@ void Panel::remember_widget(const std::string& name) {
   widgets_.push_back({name, from.x, from.y, to.x, to.y});
 }
 
+void Panel::bring_into_view(float share) {
+  const float place = ImGui::GetCursorScreenPos().y, top = ImGui::GetWindowPos().y;
+  const float lines = share < 0.5f ? 4.0f * ImGui::GetFrameHeightWithSpacing() : 0.0f;  // of what begins here
+  if (place < top || place + lines > top + ImGui::GetWindowHeight()) ImGui::SetScrollHereY(share);
+}
+
 void Panel::show_times(const FrameTimes& times) {
   ImGui::Text("frame %.2f ms   CPU %.2f ms   GPU %.2f ms", times.frame_ms(), times.cpu_ms(), times.gpu_ms());
   show_tooltip("medians of the last " + std::to_string(FrameTimes::kFrames) +

@@ -96,6 +96,7 @@ class Panel {
   void show_scale_choice(const PanelContent& content);
   void show_views(const PanelContent& content);
   void show_view_list(const PanelContent& content, const std::string& current);
+  void show_traced_views(std::span<const VisualizerInfo* const> views);
   void show_view_choice(const PanelContent& content, const VisualizerInfo& info, const std::string& current);
   void show_heat_scale(const PanelContent& content, const HeatScale& heat);
   void show_view_argument(const PanelContent& content, const VisualizerInfo& info);
@@ -120,6 +121,8 @@ class Panel {
   void show_knob(const PanelContent& content, const Knob& knob);
   void show_knob_value(KnobRegistry& knobs, const Knob& knob);
   void remember_widget(const std::string& name);
+  /// Scrolls so that the place reached so far is in view: at 0 as the panel's first line, at 1 as its last.
+  static void bring_into_view(float share);
 
   Gui gui_;
   std::vector<PanelWidget> widgets_;
@@ -129,6 +132,8 @@ class Panel {
   std::string light_search_;
   bool lights_by_share_ = false;
   std::size_t selected_light_ = kNoLight;
+  bool bring_details_ = false;   ///< a light was selected: its details are to come into view
+  std::uint64_t seen_pick_ = 0;  ///< PanelScene::pick whose lines have been brought into view
   KnobSlots slots_;
   WipeSide wipe_side_ = WipeSide::exact;  ///< chosen last
   std::string fault_;                     ///< error of the last chosen visualizer; empty: none

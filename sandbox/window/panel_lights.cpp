@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <utility>
 
 #include "sandbox/window/panel.h"
 #include "sandbox/window/panel_scene.h"
@@ -14,6 +15,11 @@ namespace {
 
 constexpr ImGuiColorEditFlags kSwatch =
     ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_NoLabel | ImGuiColorEditFlags_HDR | ImGuiColorEditFlags_Float;
+
+// A drag by a pixel changes an intensity by one percent, whatever its order of magnitude.
+constexpr float kIntensityStep = 0.01f;
+constexpr float kLeastIntensityStep = 0.001f;  // leads away from 0
+constexpr float kMostIntensity = 1e6f;
 
 bool contains(std::string_view text, std::string_view search) {
   const auto same = [](char a, char b) {
@@ -49,21 +55,22 @@ void Panel::show_lights(const PanelScene& scene) {
   remember_widget("lights search");
   show_light_table(scene);
   if (selected_light_ < scene.lights.size()) show_light_details(scene);
+  if (std::exchange(bring_details_, false)) bring_into_view(1.0f);
 }
 
 void Panel::show_light_table(const PanelScene& scene) {
-  constexpr float kMostLines = 12.0f;
+  constexpr float kMostLines = 8.0f;
   const std::vector<std::size_t> shown = shown_lights(scene.lights, light_search_, lights_by_share_);
   const float line = ImGui::GetFrameHeightWithSpacing();
   const float height = line * std::min(static_cast<float>(shown.size()) + 1.2f, kMostLines);
   constexpr ImGuiTableFlags kFlags = ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_ScrollY;
-  if (!ImGui::BeginTable("lights", 5, kFlags, ImVec2(0.0f, height))) return;
+  if (!ImGui::BeginTable("lights", lights_by_share_ ? 5 : 4, kFlags, ImVec2(0.0f, height))) return;
   ImGui::TableSetupScrollFreeze(0, 1);
   ImGui::TableSetupColumn("light");
   ImGui::TableSetupColumn("solo");
   ImGui::TableSetupColumn("mute");
   ImGui::TableSetupColumn("intensity", ImGuiTableColumnFlags_WidthStretch);
-  ImGui::TableSetupColumn("share");
+  if (lights_by_share_) ImGui::TableSetupColumn("share");
   ImGui::TableHeadersRow();
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>(shown.size()));
@@ -88,6 +95,7 @@ void Panel::show_light(const PanelScene& scene, std::size_t index) {
   const std::string label = (name.empty() ? "(no name)" : name) + "  " + light.kind;
   if (ImGui::Selectable(label.c_str(), index == selected_light_)) {
     selected_light_ = index == selected_light_ ? kNoLight : index;
+    bring_details_ = selected_light_ != kNoLight;
     scene.select(selected_light_);
   }
   remember_widget(name);
@@ -100,11 +108,14 @@ void Panel::show_light(const PanelScene& scene, std::size_t index) {
   ImGui::TableNextColumn();
   ImGui::SetNextItemWidth(-1.0f);
   const std::string format = "%.4g " + light.unit;
-  changed |= ImGui::SliderFloat("##intensity", &light.intensity, 0.0f, 100000.0f, format.c_str(),
-                                ImGuiSliderFlags_Logarithmic);
+  const float step = std::max(kIntensityStep * light.intensity, kLeastIntensityStep);
+  changed |= ImGui::DragFloat("##intensity", &light.intensity, step, 0.0f, kMostIntensity, format.c_str());
   remember_widget(name + " intensity");
-  ImGui::TableNextColumn();
-  if (light.share >= 0.0) ImGui::Text("%5.1f %%", 100.0 * light.share);
+  if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) ImGui::SetTooltip("drag, or double-click to type a number");
+  if (lights_by_share_) {
+    ImGui::TableNextColumn();
+    if (light.share >= 0.0) ImGui::Text("%5.1f %%", 100.0 * light.share);
+  }
   if (changed) scene.set_light(index, light);
 }
 

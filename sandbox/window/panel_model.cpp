@@ -143,6 +143,10 @@ void KnobSlots::show(KnobRegistry& registry, std::size_t slot) const {
 ViewGroups view_groups(std::span<const VisualizerInfo> views, std::span<const ModuleState> modules) {
   ViewGroups groups;
   for (const VisualizerInfo& view : views) {
+    if (view.trace) {
+      groups.traced.push_back(&view);
+      continue;
+    }
     const auto module = std::ranges::find(modules, view.module, &ModuleState::name);
     if (module == modules.end() || module->demanded) {
       groups.called_for.push_back(&view);

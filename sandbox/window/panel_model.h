@@ -80,10 +80,12 @@ struct IdleViews {
   std::string reason;  ///< why it is not called for
   std::vector<const VisualizerInfo*> views;
 };
-/// All views: those of modules that the scene calls for, in the order given, and the others by module.
+/// All views: those of modules that the scene calls for, in the order given, and the others by module. Traced ones take
+/// too long for a window.
 struct ViewGroups {
   std::vector<const VisualizerInfo*> called_for;
   std::vector<IdleViews> others;
+  std::vector<const VisualizerInfo*> traced;
 };
 /// A module that `modules` does not name counts as called for. The result points into `views`.
 [[nodiscard]] ViewGroups view_groups(std::span<const VisualizerInfo> views, std::span<const ModuleState> modules);

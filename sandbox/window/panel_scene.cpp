@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "sandbox/window/panel.h"
 
@@ -127,6 +128,7 @@ void Panel::show_lens(const PanelScene& scene) {
 }
 
 void Panel::show_pixel(const PanelScene& scene) {
+  if (std::exchange(seen_pick_, scene.pick) != scene.pick) bring_into_view(0.0f);
   const bool open = ImGui::CollapsingHeader("Pixel", ImGuiTreeNodeFlags_DefaultOpen);
   remember_widget("pixel");
   if (!open) return;

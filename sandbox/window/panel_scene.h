@@ -77,6 +77,7 @@ struct PanelScene {
   std::function<void()> save_lights;  ///< writes the changes to a file for --lights
 
   std::span<const std::string> picked;  ///< lines about the pixel that was clicked last
+  std::uint64_t pick = 0;               ///< number of that click; another one brings its lines into view
 
   std::function<void()> save_config;   ///< writes the knobs to a file for --config
   std::function<void()> copy_command;  ///< puts the command line of this picture on the clipboard

@@ -35,10 +35,12 @@ void Panel::show_views(const PanelContent& content) {
   if (shown->heat.most > 0.0) show_heat_scale(content, shown->heat);
 }
 
-/// The views of effects that the scene calls for; below them, folded away, the others and why they show nothing.
+/// The views of effects that the scene calls for; below them, folded away, the others and why they show nothing, and
+/// the traced ones.
 void Panel::show_view_list(const PanelContent& content, const std::string& current) {
   const ViewGroups groups = view_groups(content.visualizers, content.modules);
   for (const VisualizerInfo* info : groups.called_for) show_view_choice(content, *info, current);
+  show_traced_views(groups.traced);
   if (groups.others.empty()) return;
   std::size_t count = 0;
   for (const IdleViews& idle : groups.others) count += idle.views.size();
@@ -49,6 +51,15 @@ void Panel::show_view_list(const PanelContent& content, const std::string& curre
     ImGui::TextDisabled("%s: %s", idle.module.c_str(), idle.reason.c_str());
     for (const VisualizerInfo* info : idle.views) show_view_choice(content, *info, current);
   }
+  ImGui::TreePop();
+}
+
+void Panel::show_traced_views(std::span<const VisualizerInfo* const> views) {
+  if (views.empty()) return;
+  const bool unfolded = ImGui::TreeNode("##traced", "%zu that take seconds: gloam render --view NAME", views.size());
+  remember_widget("traced views");
+  if (!unfolded) return;
+  for (const VisualizerInfo* info : views) ImGui::TextDisabled("%s", info->name.c_str());
   ImGui::TreePop();
 }
 

@@ -33,10 +33,11 @@ TEST(PanelModel, a_slider_shows_the_unit_as_it_is_written) {
 }
 
 TEST(PanelModel, views_of_modules_that_the_scene_does_not_call_for_are_apart_with_the_reason) {
-  const std::vector<VisualizerInfo> views = {
+  std::vector<VisualizerInfo> views = {
       {"none", "engine", "", ""},     {"overdraw", "particles", "", ""},     {"lights_approx", "lights", "", ""},
       {"grass_lod", "grass", "", ""}, {"light_list", "lights", "LIGHT", ""}, {"grass_wind", "grass", "", ""},
-      {"own", "of a host", "", ""}};
+      {"own", "of a host", "", ""},   {"grass_reference", "grass", "", ""}};
+  views.back().trace = [](World&, const ReferenceInput&) { return Status(); };
   const std::vector<ModuleState> modules = {{.name = "engine", .demanded = true},
                                             {.name = "lights", .demanded = true, .reason = "2 lights"},
                                             {.name = "grass", .demanded = false, .reason = "no surface grows grass"},
@@ -49,6 +50,7 @@ TEST(PanelModel, views_of_modules_that_the_scene_does_not_call_for_are_apart_wit
   EXPECT_EQ(groups.others[0].reason, "no emitter");
   EXPECT_EQ(groups.others[1].module, "grass");
   EXPECT_THAT(groups.others[1].views, ::testing::ElementsAre(&views[3], &views[5]));
+  EXPECT_THAT(groups.traced, ::testing::ElementsAre(&views.back())) << "a window does not trace";
 }
 
 TEST(PanelModel, a_wide_range_of_factors_moves_in_factors) {

@@ -60,6 +60,21 @@ class PanelTest : public ::testing::Test {
     frame(input);
   }
 
+  /// Presses in the middle of a widget, moves to the right, and releases.
+  void drag(const std::string& name, double pixels) {
+    for (int i = 0; i < 2; ++i) frame();
+    const PanelWidget* widget = find(name);
+    ASSERT_NE(widget, nullptr) << name << " is not shown";
+    PanelInput input = pointing_at(*widget);
+    frame(input);
+    input.buttons[0] = true;
+    frame(input);
+    input.mouse_x += pixels;
+    for (int i = 0; i < 2; ++i) frame(input);
+    input.buttons[0] = false;
+    frame(input);
+  }
+
   [[nodiscard]] static PanelInput pointing_at(const PanelWidget& widget, double share = 0.5) {
     PanelInput input;
     input.mouse_x = widget.left + share * (widget.right - widget.left);
@@ -274,7 +289,9 @@ TEST_F(PanelTest, lights_and_scene_pass_on_what_the_user_changes) {
   click("lights");
   expect("lamp mute", "mute 0");
   expect("lamp solo", "solo 0");
-  expect("lamp intensity", "intensity", 0.8);
+  done.clear();
+  drag("lamp intensity", 20.0);
+  EXPECT_EQ(done, "intensity");
   expect("lights by share", "shares", 0.05);
   expect("save lights", "saved lights");
   expect("lamp", "select 0");
@@ -282,6 +299,26 @@ TEST_F(PanelTest, lights_and_scene_pass_on_what_the_user_changes) {
   expect("light shadows", "shadows 0", 0.1);
   expect("lamp", "select " + std::to_string(kNoLight));
   EXPECT_EQ(find("light locate"), nullptr) << "details of the selected light";
+}
+
+TEST_F(PanelTest, what_is_selected_or_clicked_comes_into_view) {
+  std::vector<PanelLight> lights(30, {.kind = "spot", .unit = "cd", .intensity = 5.0f});
+  for (std::size_t i = 0; i < lights.size(); ++i) lights[i].name = "lamp " + std::to_string(i);
+  const std::vector<std::string> warnings(9, "a warning"), picked(8, "a line");
+  PanelScene scene = {.warnings = warnings, .lights = lights, .select = [](std::size_t) {}, .picked = picked};
+  scene_ = &scene;
+  const auto in_view = [&](const char* name) {
+    for (int i = 0; i < 3; ++i) frame();
+    const PanelWidget* widget = find(name);
+    return widget != nullptr && widget->top >= 0.0 && widget->bottom <= 600.0;
+  };
+  click("lights");
+  EXPECT_FALSE(in_view("light width"));
+  click("lamp 1");
+  EXPECT_TRUE(in_view("light width"));
+  EXPECT_FALSE(in_view("pixel"));
+  scene.pick = 1;
+  EXPECT_TRUE(in_view("pixel"));
 }
 
 TEST(PickedLines, put_the_light_first_and_fold_lists) {

@@ -101,6 +101,8 @@ std::vector<Broken> broken_texts() {
        {"is nested deeper than 96 levels"}},
       {"no_asset", R"({"nodes": []})", {"scene.gltf: asset is missing"}},
       {"no_version", R"({"asset": {}})", {"asset: version is missing"}},
+      {"old_version_as_a_number", R"({"asset": {"version": 1}, "accessors": {}})", {"is glTF 1.0, only 2.x is read"}},
+      {"version_as_a_number", R"({"asset": {"version": 2.0}})", {"asset: version must be a string"}},
       {"old_version", R"({"asset": {"version": "1.0"}, "nodes": {"a": {}}})", {"is glTF 1.0, only 2.x is read"}},
       {"nodes_not_a_list", file(R"("nodes": {"a": 1})"), {"scene.gltf: nodes must be an array"}},
       {"node_not_an_object", file(R"("nodes": [7])"), {"nodes[0] must be an object"}},

@@ -271,7 +271,11 @@ void Scanner::take(const SceneValue& value) {
     list.push_back(value.text);
     return;
   }
-  if (top.type == "asset" && top.member == "version") scan_.version = value.text;
+  if (top.type == "asset" && top.member == "version") {
+    scan_.version = value.text;
+    // Old exporters write 1 as a number. Another number is a fault of a file of version 2.
+    if (value.kind == Kind::number && value.number < 2.0) scan_.version = nlohmann::json(value.number).dump();
+  }
   if (top.type == "compressed buffer" && top.member == "fallback" && value.boolean && !scan_.buffers.empty())
     scan_.buffers.back().fallback = true;
   const bool buffer = top.type == "buffer";
