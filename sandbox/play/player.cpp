@@ -385,7 +385,7 @@ Status Player::run_beside(std::function<Status()> work) {
 std::string Player::usual_title() const {
   if (progress_.left > 0) return formatted("gloam: compiling %s, %zu left", progress_.name.c_str(), progress_.left);
   const PanelWipe wipe = wipe_.shown();
-  return "gloam: " + options_.scene + (wipe.on ? std::string(", wipe: now | ") + name_of(wipe.side) : "");
+  return "gloam: " + options_.scene + (wipe.on ? ", wipe: now | " + right_side(wipe) : "");
 }
 
 void Player::answer(std::chrono::steady_clock::time_point since) {

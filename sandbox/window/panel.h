@@ -135,6 +135,8 @@ class Panel {
   bool bring_details_ = false;   ///< a light was selected: its details are to come into view
   std::uint64_t seen_pick_ = 0;  ///< PanelScene::pick whose lines have been brought into view
   KnobSlots slots_;
+  std::string view_now_ = "none";
+  std::string view_before_;               ///< shown before view_now_; empty: none yet
   WipeSide wipe_side_ = WipeSide::exact;  ///< chosen last
   std::string fault_;                     ///< error of the last chosen visualizer; empty: none
 };

@@ -20,8 +20,14 @@ const char* name_of(WipeSide side) {
       return "B";
     case WipeSide::picture:
       return "picture";
+    case WipeSide::view:
+      return "view";
   }
   return "";
+}
+
+std::string right_side(const PanelWipe& wipe) {
+  return name_of(wipe.side) + (wipe.side == WipeSide::view ? " " + wipe.visualizer : "");
 }
 
 namespace {
@@ -36,6 +42,8 @@ const char* meaning_of(WipeSide side) {
       return "the settings that were kept as B";
     case WipeSide::picture:
       return "the lit picture, beside the view";
+    case WipeSide::view:
+      return "the view that was shown before this one";
   }
   return "";
 }
@@ -57,6 +65,10 @@ bool Panel::offers(const PanelContent& content, WipeSide side) const {
       return slots_.has(1);
     case WipeSide::picture:
       return content.visualizer != "none";
+    case WipeSide::view: {
+      const std::string view = wipe_of(*content.wipe, side).visualizer;
+      return !view.empty() && view != content.visualizer;
+    }
   }
   return false;
 }
@@ -65,11 +77,16 @@ PanelWipe Panel::wipe_of(const PanelWipe& now, WipeSide side) const {
   PanelWipe wipe = {.on = now.on, .at = now.at, .side = side};
   if (side == WipeSide::kept_a) wipe.kept = slots_.kept(0);
   if (side == WipeSide::kept_b) wipe.kept = slots_.kept(1);
+  if (side == WipeSide::view) wipe.visualizer = now.on && now.side == side ? now.visualizer : view_before_;
   return wipe;
 }
 
 void Panel::show_wipe(const PanelContent& content) {
   const PanelWipe& now = *content.wipe;
+  if (view_now_ != content.visualizer) {
+    if (view_now_ != "none") view_before_ = view_now_;
+    view_now_ = content.visualizer;
+  }
   const auto is_offered = [&](WipeSide side) { return offers(content, side); };
   if (now.on && !is_offered(now.side)) return content.set_wipe({.on = false, .at = now.at});
   const auto* const first = std::ranges::find_if(kWipeSides, is_offered);
@@ -86,12 +103,12 @@ void Panel::show_wipe(const PanelContent& content) {
                                 : "needs another side: keep A or B, show a view, or set a budget");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-1.0f);
-  const bool open = ImGui::BeginCombo("##side", any ? name_of(wipe_side_) : "nothing to compare");
+  const bool open = ImGui::BeginCombo("##side", any ? right_side(wanted).c_str() : "nothing to compare");
   remember_widget("wipe side");
   if (open) {
     for (const WipeSide side : kWipeSides) {
       if (!is_offered(side)) continue;
-      if (ImGui::Selectable(name_of(side), side == wipe_side_)) {
+      if (ImGui::Selectable(right_side(wipe_of(now, side)).c_str(), side == wipe_side_)) {
         wipe_side_ = side;
         wanted = wipe_of(now, side);
         changed |= now.on;

@@ -29,7 +29,7 @@ std::vector<KnobOverride> changes(const KnobRegistry& knobs, const std::vector<K
 
 bool shows_other_side(const PanelWipe& a, const PanelWipe& b) {
   const auto same = [](const KnobOverride& x, const KnobOverride& y) { return x.name == y.name && x.value == y.value; };
-  return a.side != b.side || !std::ranges::equal(a.kept, b.kept, same);
+  return a.side != b.side || a.visualizer != b.visualizer || !std::ranges::equal(a.kept, b.kept, same);
 }
 
 }  // namespace
@@ -48,7 +48,7 @@ void Wipe::set(const PanelWipe& wanted) {
 PanelWipe Wipe::shown() const {
   PanelWipe wipe = wanted_;
   if (!wipe.on) return wipe;
-  const std::string side = name_of(wipe.side);
+  const std::string side = right_side(wipe);
   if (!timing_.has_picture())
     wipe.note = side + ": the picture is being drawn";
   else if (wipe.side != WipeSide::exact)
@@ -65,6 +65,9 @@ ViewSettings Wipe::right_of(const ViewSettings& view) const {
   right.camera_cut = view.camera_cut || timing_.begins();
   if (wanted_.side == WipeSide::exact) right.knobs = exact_settings(session_.renderer->budgets());
   if (wanted_.side == WipeSide::picture) right.visualizer = "none";
+  if (wanted_.side == WipeSide::view)  // knobs may have changed since it was shown
+    right.visualizer =
+        session_.renderer->check_visualizer(session_.world, wanted_.visualizer) ? wanted_.visualizer : "none";
   if (wanted_.side != WipeSide::kept_a && wanted_.side != WipeSide::kept_b) return right;
   right.knobs = changes(session_.renderer->knobs(), wanted_.kept);
   // A view that needs another value of a knob than the kept one does not exist with the kept settings.

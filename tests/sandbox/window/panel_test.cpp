@@ -379,7 +379,17 @@ TEST_F(PanelTest, a_wipe_offers_what_there_is_to_compare) {
   EXPECT_TRUE(wanted.back().on);
   EXPECT_TRUE(wanted.back().kept.empty());
   wipe = wanted.back();
+  EXPECT_EQ(find("wipe side view"), nullptr) << "no other view was shown";
+  visualizer_ = "light_list:lamp";
+  click("wipe side");
+  click("wipe side view");
+  EXPECT_EQ(wanted.back().side, WipeSide::view);
+  EXPECT_EQ(wanted.back().visualizer, "heat");
+  wipe = wanted.back();
   visualizer_ = "none";
+  frame();
+  EXPECT_TRUE(wanted.back().on) << "the picture beside a view";
+  visualizer_ = "heat";
   frame();
   EXPECT_FALSE(wanted.back().on) << "both sides would be the same";
 }

@@ -160,6 +160,19 @@ TEST_F(WipeTest, the_picture_is_beside_the_view_that_is_shown) {
   EXPECT_THAT(right->knobs, IsEmpty());
 }
 
+TEST_F(WipeTest, two_views_are_beside_each_other) {
+  view_.visualizer = "depth";
+  wipe_->set({.on = true, .side = WipeSide::view, .visualizer = "lights_approx"});
+  EXPECT_EQ(frame().value().visualizer, "lights_approx");
+  EXPECT_THAT(wipe_->shown().note, HasSubstr("now | view lights_approx"));
+  wipe_->set({.on = true, .side = WipeSide::view, .visualizer = "normal"});
+  EXPECT_EQ(frame().value().visualizer, "normal");
+  // It needs lights.culling=tiled.
+  wipe_->set({.on = true, .side = WipeSide::view, .visualizer = "lights_approx"});
+  ASSERT_TRUE(session_->renderer->knobs().set("lights.culling", "brute").ok());
+  EXPECT_EQ(frame().value().visualizer, "none");
+}
+
 TEST_F(WipeTest, a_view_that_kept_settings_do_not_have_is_left_out_there) {
   view_.visualizer = "lights_approx";  // needs lights.culling=tiled
   wipe_->set({.on = true, .side = WipeSide::kept_a, .kept = {{"lights.culling", "brute"}}});
