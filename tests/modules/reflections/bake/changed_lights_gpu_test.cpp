@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <string>
@@ -14,25 +15,34 @@ namespace {
 
 /// The mean light of the floor with captures that were kept while lights changed is compared with that of new captures.
 struct ChangedHall : LampHall {
-  /// Floor light of kept captures over that of new ones, after `change`.
-  [[nodiscard]] double kept_over_new(const char* tiers, const std::function<void()>& change) {
-    capture_again();
-    set("reflections.tiers", tiers);
-    const double before = floor_light();
-    change();
-    const double kept = floor_light();
-    capture_again();
-    const double renewed = floor_light();
-    EXPECT_GT(std::abs(renewed / before - 1.0), 0.2) << "the change is seen";
-    return kept / renewed;
+  using Lights = std::array<double, 3>;
+  static constexpr std::array<const char*, 3> kTiers = {"cube", "ibr+cube", "all"};
+
+  /// Floor light with each choice of tiers.
+  [[nodiscard]] Lights floor_lights() {
+    Lights lights;
+    for (std::size_t i = 0; i < kTiers.size(); ++i) {
+      set("reflections.tiers", kTiers[i]);
+      lights[i] = floor_light();
+    }
+    return lights;
   }
+  /// Compares kept captures with new ones after `change`. Captures do not depend on the tiers that show them.
   void judge(const std::string& what, const std::function<void()>& change, const std::function<void()>& undo) {
-    for (const char* tiers : {"cube", "ibr+cube", "all"}) {
-      const double ratio = kept_over_new(tiers, change);
-      undo();
-      RecordProperty(what + ", " + tiers, std::to_string(ratio));
-      EXPECT_GT(ratio, 0.87) << what << ", " << tiers;
-      EXPECT_LT(ratio, 1.15) << what << ", " << tiers;
+    capture_again();
+    const Lights before = floor_lights();
+    change();
+    const Lights kept = floor_lights();
+    capture_again();
+    const Lights renewed = floor_lights();
+    undo();
+    for (std::size_t i = 0; i < kTiers.size(); ++i) {
+      const std::string name = what + ", " + kTiers[i];
+      EXPECT_GT(std::abs(renewed[i] / before[i] - 1.0), 0.2) << name << ": the change is seen";
+      const double ratio = kept[i] / renewed[i];
+      RecordProperty(name, std::to_string(ratio));
+      EXPECT_GT(ratio, 0.87) << name;
+      EXPECT_LT(ratio, 1.15) << name;
     }
   }
   void judge_all(const std::string& scene_name) {

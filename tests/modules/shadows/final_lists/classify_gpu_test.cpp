@@ -22,7 +22,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Way{"nearest", {{"shadows.mip_operator", "nearest"}}, 12, {64, 48}, true},
                       Way{"average", {{"shadows.mip_operator", "average"}}}, Way{"no_bias", {{"shadows.bias_mm", "0"}}},
                       Way{"large_bias", {{"shadows.bias_mm", "20"}}, 12, {64, 48}, true},
-                      Way{"terminator", {{"shadows.terminator", "on"}}, 16, {200, 152}, false, {5, 4}},
+                      Way{"terminator", {{"shadows.terminator", "on"}}, 10, {200, 152}, false, {5, 4}},
                       Way{"terminator_close", {{"shadows.terminator", "on"}}, 12, {200, 152}, true, {5, 4}},
                       Way{"d16", {{"shadows.depth", "d16"}}, 12, {64, 48}, true},
                       Way{"coarse_maps", {{"shadows.texels_per_pixel", "0.25"}, {"shadows.visibility_bits", "4"}}}),

@@ -14,7 +14,7 @@ struct ClassifyClose : test::ClassifyShadowsWays {};
 
 TEST_P(ClassifyClose, never_contradict_the_filter) { run(); }
 
-INSTANTIATE_TEST_SUITE_P(Of, ClassifyClose, ::testing::Values(Way{"standard", {}, 96, {80, 64}, true}),
+INSTANTIATE_TEST_SUITE_P(Of, ClassifyClose, ::testing::Values(Way{"standard", {}, 48, {80, 64}, true}),
                          test::name_of_way);
 
 }  // namespace
