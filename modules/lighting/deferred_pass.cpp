@@ -1,14 +1,17 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
+#include <cstddef>
 #include <optional>
 #include <span>
 
 #include "engine/render/declare/draw_pass.h"
 #include "modules/lighting/environment.h"
+#include "modules/lighting/kept_light.h"
 #include "modules/lighting/lighting_passes.h"
 #include "modules/lighting/occlusion_passes.h"
 #include "modules/lighting/outputs.h"
 #include "modules/shadows/outputs.h"
+#include "shaders/lighting/lit_tiles_shared.h"
 #include "shaders/lighting/shaders.h"
 
 namespace gloam {
@@ -71,6 +74,13 @@ DrawProgram fallback_program(const ShadingInputs& inputs, const ShadowsOutputs& 
   const LocalLights source = inputs.outputs.has_lists() ? LocalLights::lists_or_masks : LocalLights::all;
   DrawProgram program = shading_program(source, inputs, &shadows);
   program.vertex = shaders::lighting::deferred_fallback_vert;
+  return program;
+}
+
+/// Draws runs of tiles as shading_program() with final lists draws all.
+DrawProgram tile_program(const ShadingInputs& inputs, const ShadowsOutputs& shadows) {
+  DrawProgram program = shading_program(LocalLights::final_lists, inputs, &shadows);
+  program.vertex = shaders::lighting::lit_tiles_vert;
   return program;
 }
 
@@ -174,6 +184,40 @@ void draw_fallback_tiles(FrameBuilder& frame, DrawPass& pass, const ShadingInput
   pass.draw_indirect(lists.commands, lists.fallback_draw);
 }
 
+/// Of frames that keep light.
+PipelineList reuse_pipelines(const ShadingInputs& inputs, const ShadowsOutputs& shadows) {
+  PipelineList list = {pipeline_of(tile_program(inputs, shadows), inputs)};
+  list_kept_light_pipelines(inputs, shadows, list);
+  return list;
+}
+
+std::optional<KeptLight> kept_light(FrameBuilder& frame, const ShadingInputs& inputs, const Variant& variant,
+                                    LightReuse& reuse) {
+  if (variant.source != LocalLights::final_lists || frame.knobs().value(kLightReuse) == LightReuseKind::off)
+    return std::nullopt;
+  const FrameServices& services = frame.services();
+  if (!services.wait_for_pipelines &&
+      !services.pipelines.request(reuse_pipelines(inputs, *variant.shadows), services.log))
+    return std::nullopt;
+  auto kept = plan_kept_light(frame, inputs, *variant.shadows,
+                              shading_program(variant.source, inputs, variant.shadows).constants, reuse);
+  if (kept) add_lit_tiles_pass(frame, inputs, *variant.shadows, *kept);
+  if (!frame.status().ok()) return std::nullopt;
+  return kept;
+}
+
+/// Lights the tiles that have changed, or all pixels if most have.
+void draw_changed_tiles(FrameBuilder& frame, DrawPass& pass, const ShadingInputs& inputs, const ShadowsOutputs& shadows,
+                        const KeptLight& kept) {
+  pass.use(tile_program(inputs, shadows));
+  read_inputs(frame, pass, inputs, &shadows);
+  pass.read("changed_tiles", kept.tiles);
+  pass.draw_indirect(kept.commands, offsetof(shaders::LitTileCommands, tiles));
+  pass.use(shading_program(LocalLights::final_lists, inputs, &shadows));
+  read_inputs(frame, pass, inputs, &shadows);
+  pass.draw_indirect(kept.commands, offsetof(shaders::LitTileCommands, whole));
+}
+
 }  // namespace
 
 void list_deferred_pipelines(const ShadingInputs& inputs, const ShadowsOutputs& shadows, PipelineList& list) {
@@ -183,21 +227,28 @@ void list_deferred_pipelines(const ShadingInputs& inputs, const ShadowsOutputs& 
   list.insert(list.end(), needed.begin(), needed.end());
 }
 
-void add_deferred_pass(FrameBuilder& frame) {
+void add_deferred_pass(FrameBuilder& frame, LightReuse& reuse) {
   const ShadingInputs& inputs = shading_inputs(frame);
   const Variant variant = choose_variant(frame, inputs);
+  std::optional<KeptLight> kept = kept_light(frame, inputs, variant, reuse);
   LitOutput& lit = frame.get<LitOutput>();
   DrawPass pass(frame, "deferred", shading_program(variant.source, inputs, variant.shadows));
-  lit.color = pass.target(lit.color);
+  ImageRef& color = kept ? kept->light : lit.color;
+  color = pass.target(color, kept ? gpu::LoadOp::load : gpu::LoadOp::discard);
   if (inputs.diffuse_light_wanted) add_diffuse_light_target(frame, pass);
   pass.test_depth(frame.get<GeometryOutputs>().depth);
-  read_inputs(frame, pass, inputs, variant.shadows);
-  pass.draw_triangle();
+  if (kept) {
+    draw_changed_tiles(frame, pass, inputs, *variant.shadows, *kept);
+  } else {
+    read_inputs(frame, pass, inputs, variant.shadows);
+    pass.draw_triangle();
+  }
   if (variant.source == LocalLights::final_lists && !variant.shadows->final_lists->always_complete)
     draw_fallback_tiles(frame, pass, inputs, *variant.shadows);
   pass.use(sky_program(inputs));
   pass.read_if_declared("environment", inputs.sky);
   pass.draw_triangle();
+  if (kept) lit.color = add_kept_light_copy(frame, *kept);
 }
 
 }  // namespace gloam

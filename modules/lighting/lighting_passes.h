@@ -8,12 +8,13 @@
 #include "engine/render/frame_builder.h"
 #include "engine/render/scene/draw_pipelines.h"
 #include "modules/lighting/environment.h"
+#include "modules/lighting/kept_light.h"
 #include "modules/shadows/outputs.h"
 
 namespace gloam {
 
 /// Shades the surfaces in the geometry buffer and fills the sky; writes LitOutput.
-void add_deferred_pass(FrameBuilder& frame);
+void add_deferred_pass(FrameBuilder& frame, LightReuse& reuse);
 /// Appends the pipelines that add_deferred_pass() wants with these inputs.
 void list_deferred_pipelines(const ShadingInputs& inputs, const ShadowsOutputs& shadows, PipelineList& list);
 

@@ -8,16 +8,19 @@
 #include <vector>
 
 #include "engine/render/camera/view_constants.h"
+#include "engine/render/worlds/world_id.h"
 #include "modules/lighting/antialiasing/reference.h"
 #include "modules/lighting/antialiasing/temporal_passes.h"
 #include "modules/lighting/components.h"
 #include "modules/lighting/display/metering.h"
 #include "modules/lighting/display/tone_reference.h"
+#include "modules/lighting/kept_light.h"
 #include "modules/lighting/knobs.h"
 #include "modules/lighting/lighting_passes.h"
 #include "modules/lighting/occlusion.h"
 #include "modules/lighting/occlusion_passes.h"
 #include "modules/lighting/outputs.h"
+#include "shaders/lighting/lit_tiles_shared.h"
 
 namespace gloam {
 namespace {
@@ -32,7 +35,7 @@ class LightingModule final : public Module {
 
   void knobs(KnobRegistry& registry) const override {
     add_knobs(registry, name(), kToneMap, kToneMapTable, kDither, kSpecularAntialiasing, kAntialiasing, kExposure,
-              kAmbientOcclusion);
+              kAmbientOcclusion, kLightReuse);
   }
 
   [[nodiscard]] std::vector<ReferenceInfo> references() const override {
@@ -92,7 +95,7 @@ class LightingModule final : public Module {
     if (phase == PassPhase::shading) keep_inputs(frame);
     if (phase == PassPhase::shading) {
       add_occlusion_passes(frame);
-      add_deferred_pass(frame);
+      add_deferred_pass(frame, reuse_);
       add_blended_layer_passes(frame);
     }
     if (phase == PassPhase::translucent) {
@@ -105,14 +108,22 @@ class LightingModule final : public Module {
 
   void take_result(World& world, ViewId view, std::string_view name, const FrameResult& result) const override {
     take_metered_exposure(world, view, name, result);
+    if (name != kLitTilesResult) return;
+    reuse_.note_result(world_id(world), view, result.value<shaders::LitTileCommands>());
   }
   void counters(const World& world, const RenderView& view, CounterSink& sink) const override {
     count_exposure(world, view, sink);
   }
   void result_counters(std::string_view name, const FrameResult& result, CounterSink& sink) const override {
     count_metered_exposure(name, result, sink);
+    if (name != kLitTilesResult) return;
+    const uvec4 counts = result.value<shaders::LitTileCommands>().counts;
+    sink.count("lighting.tiles_kept", counts.x - counts.y);
   }
-  void release() override { last_.reset(); }
+  void release() override {
+    last_.reset();
+    reuse_.release();
+  }
 
  private:
   void keep_inputs(FrameBuilder& frame) {
@@ -131,6 +142,7 @@ class LightingModule final : public Module {
     std::vector<SurfaceVariant> blended;
   };
   std::optional<LastInputs> last_;
+  mutable LightReuse reuse_;  ///< results come to const modules
 };
 
 }  // namespace

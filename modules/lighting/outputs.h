@@ -41,6 +41,31 @@ inline constexpr EnumKnob<Antialiasing> kAntialiasing{
         "smaa",
     .is_look = true};
 
+/// What of the last frame's light a frame keeps.
+enum class LightReuseKind : std::uint8_t {
+  off,
+  exact,  ///< that of tiles of which nothing has changed
+};
+[[nodiscard]] constexpr std::string_view name_of(LightReuseKind reuse) {
+  switch (reuse) {
+    case LightReuseKind::off:
+      return "off";
+    case LightReuseKind::exact:
+      return "exact";
+  }
+  return {};
+}
+inline constexpr EnumKnob<LightReuseKind> kLightReuse{
+    .name = "lighting.reuse",
+    .meaning =
+        "light of the last frame that is kept: none, or that of tiles of which nothing has changed, neither pixels nor "
+        "lights nor shadows (exact: the picture is the same to the bit); cost and bench set off, so that what they "
+        "measure at rest is what a moving camera pays",
+    .default_value = LightReuseKind::exact,
+    .exact = LightReuseKind::off,
+    .same_picture = true,
+    .only_with = "shadows.mode=deferred"};
+
 /// Another module adds the specular reflection of the surroundings (sky and ground) to opaque surfaces itself. It puts
 /// this on the board in PassPhase::announce. LitOutput then lacks exactly occlusion · specular_ambient()
 /// (shaders/lighting/environment_api.glsl) at each pixel with a surface, until that module adds its own term. The sky

@@ -203,8 +203,9 @@ struct ShadowsOutputs {
   /// apply where present: programs without shadows may take them, too.
   gpu::SpecConstants constants;
 
-  std::uint32_t cookie_lights = 0;  ///< spot lights of the scene that project a cookie
-  bool transmission = false;        ///< lets_light_through() (engine/scene/transmission.h)
+  std::uint64_t cookies_version = 0;  ///< changes with the content of `cookies`
+  std::uint32_t cookie_lights = 0;    ///< spot lights of the scene that project a cookie
+  bool transmission = false;          ///< lets_light_through() (engine/scene/transmission.h)
 
   /// Set only with shadows.mode=deferred, and only in frames that make final lists: the view has shadow maps, its
   /// visibilities are quantised, its local lights (if any) have early lists, and all pipelines of the passes are ready.

@@ -118,6 +118,7 @@ void add_shadow_passes(FrameBuilder& frame, ShadowStates& states, ListReuse& reu
                          .cookies = uploads.cookies,
                          .traced = uploads.traced};
   outputs.cookie_lights = static_cast<std::uint32_t>(count_cookie_lights(frame.world()));
+  outputs.cookies_version = frame.world().resource<Cookies>().version;
   set_constants(knobs,
                 traced     ? kTracedShadows
                 : has_maps ? knobs.filter

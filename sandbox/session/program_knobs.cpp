@@ -46,7 +46,10 @@ Status set_knobs(KnobRegistry& knobs, const Options& options) {
   if (options.command == Command::play || options.command == Command::render)
     knobs.set(kAntialiasing, Antialiasing::smaa);
   // What is measured at rest is what moving cameras pay.
-  if (options.command == Command::cost || options.command == Command::bench) knobs.set(kShadowReuse, ShadowReuse::off);
+  if (options.command == Command::cost || options.command == Command::bench) {
+    knobs.set(kShadowReuse, ShadowReuse::off);
+    knobs.set(kLightReuse, LightReuseKind::off);
+  }
   if (options.command == Command::play) {
     knobs.set(kHeatRange, kFitHeatRange);
     // Pictures of render do not depend on the frames before them; a window follows its lamps.

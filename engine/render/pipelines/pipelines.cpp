@@ -155,6 +155,7 @@ gpu::ShaderCode Pipelines::current(const gpu::ShaderCode& shader) const {
 void Pipelines::replace_shader(std::string_view name, std::vector<std::uint32_t> words) {
   const std::lock_guard lock(mutex_);
   replaced_[std::string(name)].push_back(std::move(words));
+  ++replacements_;
   failed_.clear();  // they may succeed now
   std::erase_if(entries_, [&](const auto& entry) {
     const auto& shaders = entry.second.shaders;
@@ -162,6 +163,11 @@ void Pipelines::replace_shader(std::string_view name, std::vector<std::uint32_t>
     device_.destroy(entry.second.pipeline);
     return true;
   });
+}
+
+std::uint64_t Pipelines::replacements() const {
+  const std::lock_guard lock(mutex_);
+  return replacements_;
 }
 
 void Pipelines::release(std::string_view module) {

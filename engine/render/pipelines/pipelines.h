@@ -55,6 +55,8 @@ class Pipelines {
   /// From now on, pipelines whose descriptions name this shader are made from these words. Existing ones are destroyed.
   /// No frame may be recorded meanwhile.
   void replace_shader(std::string_view name, std::vector<std::uint32_t> words);
+  /// Calls of replace_shader() so far. Pictures of before may differ from those that the same inputs give now.
+  [[nodiscard]] std::uint64_t replacements() const;
   /// Destroys all pipelines of a module, removes its queued ones and forgets its failures. A pipeline that is being
   /// compiled in the background stays.
   void release(std::string_view module);
@@ -83,6 +85,7 @@ class Pipelines {
   std::unordered_map<std::uint64_t, std::string> failed_;  ///< failed in the background: module
   /// By name. Devices may identify shaders by the address of their words, so that replaced words stay.
   std::unordered_map<std::string, std::deque<std::vector<std::uint32_t>>> replaced_;
+  std::uint64_t replacements_ = 0;
   PipelineList queue_;
   std::string made_;  ///< made_in_background
   std::condition_variable_any wake_;

@@ -3,17 +3,12 @@
 #ifndef GLOAM_SHADERS_SHADOWS_TILE_KEY_GLSL
 #define GLOAM_SHADERS_SHADOWS_TILE_KEY_GLSL
 
+#include "shaders/common/hash.glsl"
 #include "shaders/common/math.glsl"
 #include "shaders/lights/lights_api.glsl"
 
 // Hash of all that visibilities read of the geometry buffer in a shadow tile: depth, both normals, the flags in the
 // alpha of the base colour, and, where they count, extinction and smooth surface. Include this after shadows_api.glsl.
-
-// One step of the hash is a bijection of `state` and one of `words`, in each component.
-uvec4 add_to_key(uvec4 state, uvec4 words) {
-  state = (state ^ words) * 0x9E3779B1u;
-  return state << 13 | state >> 19;
-}
 
 // Never 0. Four hashes of 32 bits, of every fourth pixel each.
 uvec4 tile_key(sampler2D depth_image, usampler2D normal_image, sampler2D color_image, sampler2D emissive_image,

@@ -11,7 +11,7 @@
 
 #include "tests/modules/shadows/support/hard_shadows.h"
 
-// shadows.reuse=exact: pictures equal those of a renderer that keeps nothing, to the bit.
+// shadows.reuse=exact and lighting.reuse=exact: pictures equal those of a renderer that keeps nothing, to the bit.
 
 namespace gloam {
 namespace {
@@ -35,7 +35,8 @@ class ShadowReuse : public test::HardShadows {
     keeping_ = {&world, renderer.get(), {}, {}};
     plain_ = {&*other_, plain.renderer.get(), {}, {}};
     both("shadows.visibility_bits", "8");
-    ASSERT_TRUE(plain_.renderer->knobs().set("shadows.reuse", "off").ok());
+    for (const char* knob : {"shadows.reuse", "lighting.reuse"})
+      ASSERT_TRUE(plain_.renderer->knobs().set(knob, "off").ok());
     settings = test::look_at(dvec3(0.3, 2.2, 3.4), dvec3(0.0, 0.3, 0.0), 80, 56);
     each([this](Twin& twin) { build(twin); });
   }
@@ -104,6 +105,12 @@ class ShadowReuse : public test::HardShadows {
     for (const auto& [found, value] : twin.renderer->report().counters)
       if (found == name) return value;
     ADD_FAILURE() << "no counter " << name;
+    return 0.0;
+  }
+  /// Tiles that kept their light; 0 in frames that compared none.
+  [[nodiscard]] double lit_kept() const {
+    for (const auto& [found, value] : keeping_.renderer->report().counters)
+      if (found == "lighting.tiles_kept") return value;
     return 0.0;
   }
   [[nodiscard]] double kept() const { return count(keeping_, "shadows.tile_lights_kept"); }
@@ -206,6 +213,54 @@ TEST_F(ShadowReuse, pixels_that_change_are_made_anew_though_no_light_sees_it) {
   expect_some_anew("material");
   move_thing(pane, dvec3(0.3, 0.0, 0.0));
   expect_some_anew("edge");
+}
+
+TEST_F(ShadowReuse, light_that_changes_is_computed_anew_where_shadows_are_kept) {
+  std::vector<std::uint32_t> meshes;
+  each([&](Twin& twin) {
+    test::SceneMaker maker(*twin.world);
+    Material shining = exact_material(180, 170, 160, 255, 0);
+    shining.emissive = vec3(3.0f, 1.0f, 0.2f);
+    meshes.clear();
+    for (const Material& material : {exact_material(180, 170, 160, 255, 0), exact_material(90, 170, 160, 255, 0),
+                                     shining, exact_material(180, 170, 160, 255, 200)})
+      meshes.push_back(maker.mesh(test::quad(0.25f, maker.material(material))));
+    const Entity pane = twin.things.emplace_back(maker.draw(meshes[0], flat(0.05)));
+    twin.world->get<MeshInstance>(pane).casts_shadows = false;
+    twin.lamps.push_back(
+        twin.world->create(point(0.05f), WorldTransform{at(-0.4, 0.5, 0.6)}, ShadowCaster{false, 128}));
+  });
+  for (int i = 0; i < 4; ++i) draw_both("at rest");
+  const double tiles = lit_kept();  // those that show a surface
+  EXPECT_GT(tiles, 40.0);
+  const auto expect_some_anew = [&](const std::string& what) {
+    draw_both(what);
+    EXPECT_EQ(kept(), counted_anew("shadows.tile_lights") - counted_anew("shadows.tile_lights_unshadowed")) << what;
+    EXPECT_LT(lit_kept(), tiles) << what;
+    EXPECT_GT(lit_kept(), 0.0) << what;
+    draw_both(what + ", at rest");
+    EXPECT_EQ(lit_kept(), tiles) << what;
+  };
+  for (const std::size_t mesh : {1u, 2u, 3u, 0u}) {
+    each([&](Twin& twin) {
+      twin.world->get<MeshInstance>(twin.things[4]).mesh = meshes[mesh];
+      twin.world->mark_changed<MeshInstance>(twin.things[4]);
+    });
+    expect_some_anew("material " + std::to_string(mesh));
+  }
+  change_lamp(4, [](Light& l) { l.range_m = 0.7f; });
+  draw_both("a lamp without shadows");
+  draw_both("at rest");
+  change_lamp(4, [](Light& l) { l.color = vec3(1.0f, 0.2f, 0.1f); });
+  expect_some_anew("colour of a lamp without shadows");
+  change_lamp(4, [](Light& l) { l.width_m = 0.3f; });
+  expect_some_anew("width of a lamp without shadows");
+  each([](Twin& twin) { twin.world->resource<SceneEnvironment>().sky_zenith = vec3(0.3f, 0.1f, 0.2f); });
+  draw_both("sky");
+  EXPECT_EQ(lit_kept(), 0.0);
+  draw_both("sky, at rest");
+  draw_both("sky, at rest");
+  EXPECT_EQ(lit_kept(), tiles);
 }
 
 TEST_F(ShadowReuse, a_camera_that_moves_keeps_nothing_and_costs_no_keys) {
