@@ -134,9 +134,14 @@ struct RenderView : ViewProjection {
   bool paced = false;
   /// The projection is moved by a part of a pixel, by another one in each frame, because some module accumulates the
   /// view's pictures (Module::wants_jitter). The first frame after a camera cut is not moved.
+  /// `frustum` then holds what any such projection shows, so culling is the same in all frames at rest.
   bool jittered = false;
   /// The point of the picture that the centre of each pixel shows, from that centre; pixels, to the right and down.
   vec2 jitter = vec2(0.0f);
+  ViewCamera unmoved;  ///< of jittered views: the camera without jitter
+  /// Added to the mip that textures of surfaces are sampled from, ≤ 0: 0 if the picture has the view's size; log2 of
+  /// the view's share of its size if accumulation enlarges it, so that textures are as sharp as its pixels.
+  float mip_bias = 0.0f;
   /// The view's camera in the world's previous drawn frame, with the jitter of this frame, so that motion is without
   /// jitter. If there is none (has_previous), the current camera. There is none after a camera cut, and if the world's
   /// previous frame did not draw the view.
@@ -146,6 +151,8 @@ struct RenderView : ViewProjection {
   [[nodiscard]] ViewCamera view_camera() const {
     return {position, view_from_relative, clip_from_view, clip_from_relative, camera.orthographic};
   }
+  /// The camera without jitter: for what is kept until the camera moves.
+  [[nodiscard]] ViewCamera steady_camera() const { return jittered ? unmoved : view_camera(); }
   [[nodiscard]] bool is_companion() const { return main_view != id; }
   /// Whether the camera was cut between the view's last frame and this one.
   [[nodiscard]] bool camera_cut() const { return cut_frame == frame; }

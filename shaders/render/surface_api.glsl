@@ -70,13 +70,14 @@ float normal_spread_in_pixel(float roughness, vec3 normal, float variance) {
 }
 
 // Fetches the surface at a fragment; discards masked fragments. Its normals have any length above 0, which is enough
-// for packing. `to_viewer`: direction to the camera, any length (view_api.glsl). The two
-// numbers are of ViewConstants.
-Surface fetch_surface_unscaled(vec3 to_viewer, float normal_variance, float light_scale) {
+// for packing. `to_viewer`: direction to the camera, any length (view_api.glsl). The three numbers are of
+// ViewConstants.
+Surface fetch_surface_unscaled(vec3 to_viewer, float normal_variance, float light_scale, float mip_bias) {
   Surface s;
   s.base_color = material.base_color;
   if ((kSurface & GLOAM_SURFACE_VERTEX_COLOR) != 0u) s.base_color *= in_color;
-  if ((kSurface & GLOAM_SURFACE_BASE_TEXTURE) != 0u) s.base_color *= texture(base_color_texture, texture_uv(0));
+  if ((kSurface & GLOAM_SURFACE_BASE_TEXTURE) != 0u)
+    s.base_color *= texture(base_color_texture, texture_uv(0), mip_bias);
 
   // The visible side is the one towards the camera, regardless of winding and mirroring.
   s.face_normal = cross(dFdx(in_relative), dFdy(in_relative));
@@ -93,7 +94,7 @@ Surface fetch_surface_unscaled(vec3 to_viewer, float normal_variance, float ligh
   }
   s.normal = front_normal;
   if ((kSurface & GLOAM_SURFACE_NORMAL_TEXTURE) != 0u) {
-    vec3 t = texture(normal_texture, texture_uv(1)).xyz * 2.0 - 1.0;
+    vec3 t = texture(normal_texture, texture_uv(1), mip_bias).xyz * 2.0 - 1.0;
     t.xy *= material.factors.z;
     // The tangent frame has unit length at vertices and is used as interpolated, not normalised, as in the baking of
     // normal maps.
@@ -107,15 +108,16 @@ Surface fetch_surface_unscaled(vec3 to_viewer, float normal_variance, float ligh
   s.metallic = material.factors.x;
   s.roughness = material.factors.y;
   if ((kSurface & GLOAM_SURFACE_METALLIC_ROUGHNESS_TEXTURE) != 0u) {
-    vec4 mr = texture(metallic_roughness_texture, texture_uv(2));
+    vec4 mr = texture(metallic_roughness_texture, texture_uv(2), mip_bias);
     s.metallic *= mr.b;
     s.roughness *= mr.g;
   }
   s.occlusion = 1.0;
   if ((kSurface & GLOAM_SURFACE_OCCLUSION_TEXTURE) != 0u)
-    s.occlusion = 1.0 + material.factors.w * (texture(occlusion_texture, texture_uv(3)).r - 1.0);
+    s.occlusion = 1.0 + material.factors.w * (texture(occlusion_texture, texture_uv(3), mip_bias).r - 1.0);
   s.emissive = material.emissive_cutoff.rgb * light_scale;
-  if ((kSurface & GLOAM_SURFACE_EMISSIVE_TEXTURE) != 0u) s.emissive *= texture(emissive_texture, texture_uv(4)).rgb;
+  if ((kSurface & GLOAM_SURFACE_EMISSIVE_TEXTURE) != 0u)
+    s.emissive *= texture(emissive_texture, texture_uv(4), mip_bias).rgb;
   s.subsurface = material.extras.x > 0.5;
   s.extinction_root = material.extras.z;
   float smoothness = 1.0 - s.roughness;
@@ -127,8 +129,8 @@ Surface fetch_surface_unscaled(vec3 to_viewer, float normal_variance, float ligh
 }
 
 // Like fetch_surface_unscaled, but with unit normals.
-Surface fetch_surface(vec3 to_viewer, float normal_variance, float light_scale) {
-  Surface s = fetch_surface_unscaled(to_viewer, normal_variance, light_scale);
+Surface fetch_surface(vec3 to_viewer, float normal_variance, float light_scale, float mip_bias) {
+  Surface s = fetch_surface_unscaled(to_viewer, normal_variance, light_scale, mip_bias);
   s.normal = normalize(s.normal);
   s.face_normal = normalize(s.face_normal);
   return s;

@@ -27,6 +27,7 @@ struct ViewConstants {
   vec4 clip_plane;
   float normal_variance;  // HighlightFilter
   float light_scale;      // RenderView::light_scale
+  float mip_bias;         // RenderView::mip_bias
 };
 
 GLOAM_SHARED_END

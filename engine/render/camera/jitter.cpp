@@ -22,6 +22,16 @@ dvec3 shift(mat4& clip_from_view, const mat4& view_from_relative, bool orthograp
          dvec3(rows[1]) * (static_cast<double>(ndc.y) / clip_from_view[1][1]);
 }
 
+/// The camera-relative frustum of an unjittered view, wider by half a pixel at each side.
+Frustum wider_frustum(const RenderView& view) {
+  mat4 clip = view.clip_from_view;
+  for (int column = 0; column < 4; ++column) {
+    clip[column][0] /= 1.0f + 1.0f / static_cast<float>(view.width);
+    clip[column][1] /= 1.0f + 1.0f / static_cast<float>(view.height);
+  }
+  return frustum_from_clip(clip * view.view_from_relative);
+}
+
 }  // namespace
 
 vec2 jitter_point(std::uint64_t index) {
@@ -32,6 +42,8 @@ vec2 jitter_point(std::uint64_t index) {
 }
 
 void apply_jitter(RenderView& view, const vec2& pixels) {
+  view.unmoved = view.view_camera();
+  view.frustum = wider_frustum(view);
   view.jittered = true;
   view.jitter = pixels;
   const vec2 ndc = vec2(-2.0f, 2.0f) * pixels / vec2(static_cast<float>(view.width), static_cast<float>(view.height));
@@ -39,7 +51,7 @@ void apply_jitter(RenderView& view, const vec2& pixels) {
   view.position += moved;
   view.clip_plane.w += static_cast<float>(glm::dot(dvec3(vec3(view.clip_plane)), moved));
   view.clip_from_relative = view.clip_from_view * view.view_from_relative;
-  view.frustum = frustum_from_clip(view.clip_from_relative);
+  for (Plane& plane : view.frustum.planes) plane.distance += static_cast<float>(glm::dot(dvec3(plane.normal), moved));
   ViewCamera& previous = view.previous;
   previous.position += shift(previous.clip_from_view, previous.view_from_relative, previous.orthographic, ndc);
   previous.clip_from_relative = previous.clip_from_view * previous.view_from_relative;

@@ -16,6 +16,7 @@ shaders::ViewConstants view_constants(const RenderView& view) {
   constants.frame = static_cast<std::uint32_t>(view.frame);
   constants.clip_plane = view.clip_plane;
   constants.light_scale = view.light_scale;
+  constants.mip_bias = view.mip_bias;
 
   const dvec3 right(rows[0]), up(rows[1]);
   const dmat4 clip(view.clip_from_view);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <string>
 
@@ -39,15 +40,28 @@ bool jitters(const Frame& frame, const FrameView& own, const ModuleSet& modules)
          modules.any_needs(&Module::wants_jitter, frame.world, frame.knobs_of(own));
 }
 
-/// Sets the camera of the view's previous frame, and its jitter. Views that are no companions come first.
+/// RenderView::mip_bias of a jittered view.
+float mip_bias(const RenderView& view, const ViewTarget& target) {
+  if (target.width == 0) return 0.0f;
+  const auto share = [](std::uint32_t part, std::uint32_t whole) {
+    return static_cast<float>(part) / static_cast<float>(whole);
+  };
+  return std::log2(std::max(share(view.width, target.width), share(view.height, target.height)));
+}
+
+/// Sets the camera of the view's previous frame, its jitter and mip bias. Views that are no companions come first.
 void set_motion(Frame& frame, FrameView& own, RendererParts& parts) {
   RenderView& view = *own.view;
   parts.resources.motion.begin_view(view);
   if (own.main) {
     const auto main = std::ranges::find_if(
         frame.views, [&](const FrameView& other) { return other.request.settings.id == *own.main; });
-    if (main->view->jittered) apply_jitter(view, main->view->jitter);
+    view.mip_bias = main->view->mip_bias;
+    // A point of the mirror is at the same place in both pictures, which may differ in size.
+    const vec2 scale = vec2(view.width, view.height) / vec2(main->view->width, main->view->height);
+    if (main->view->jittered) apply_jitter(view, main->view->jitter * scale);
   } else if (jitters(frame, own, parts.modules)) {
+    view.mip_bias = mip_bias(view, own.request.target);
     apply_jitter(view, jitter_point(view.frame - view.cut_frame));
   }
 }

@@ -58,7 +58,7 @@ void main() {
 #ifdef GLOAM_TEXTURED
   // Before any pixel is left out: the choice of the mip needs the neighbours.
   vec3 at = vec3(0.5 + 0.5 * in_place.y, 1.0 - along, max(float(layer) - float(GLOAM_GRASS_COLORS), 0.0));
-  vec4 texel = texture(blade_textures, at);
+  vec4 texel = texture(blade_textures, at, view.mip_bias);
   bool textured = layer >= uint(GLOAM_GRASS_COLORS);
   bool left_out =
       textured ? is_cut_out(in_coverage.x, texel.a, in_coverage.y) : is_left_out(in_coverage.x, in_coverage.y);

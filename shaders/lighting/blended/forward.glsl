@@ -31,7 +31,7 @@ vec3 surrounding_light(ShadingPoint p, Surface s) {
 
 void main() {
   vec3 to_eye = normalize(to_viewer(view, in_relative));
-  Surface s = fetch_surface(to_eye, view.normal_variance, view.light_scale);
+  Surface s = fetch_surface(to_eye, view.normal_variance, view.light_scale, view.mip_bias);
   ShadingPoint p = shading_point(in_relative, to_eye, s.normal, s.base_color.rgb, s.metallic, s.roughness);
   p.normal_spread = s.normal_spread;
   set_receiver(in_relative, s.face_normal, s.subsurface);

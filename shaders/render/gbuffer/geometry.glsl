@@ -26,7 +26,8 @@ layout(location = 4) out vec2 out_motion;
 
 void main() {
   // pack_normal takes normals of any length.
-  Surface s = fetch_surface_unscaled(to_viewer(view, in_relative), view.normal_variance, view.light_scale);
+  Surface s =
+      fetch_surface_unscaled(to_viewer(view, in_relative), view.normal_variance, view.light_scale, view.mip_bias);
   out_base_color = encode_base_color(s.base_color.rgb, s.subsurface, s.normal_spread);
   out_normals = encode_normals(s.normal, s.face_normal);
   out_material = vec4(s.roughness, s.metallic, s.occlusion, s.reflectivity);

@@ -101,6 +101,42 @@ TEST(Jitter, leaves_motion_as_it_is) {
   }
 }
 
+TEST(Jitter, leaves_the_frustum_and_the_steady_camera_where_they_are) {
+  for (const ViewSettings& settings : all_kinds_of_views()) {
+    const RenderView plain = make_view(settings, 3);
+    EXPECT_EQ(plain.steady_camera().clip_from_relative, plain.clip_from_relative);
+    for (const vec2 jitter : {vec2(0.0f), vec2(0.4f, -0.3f), vec2(-0.5f, -0.5f), vec2(0.5f, 0.5f)}) {
+      RenderView view = plain;
+      apply_jitter(view, jitter);
+      EXPECT_EQ(view.steady_camera().position, plain.position);
+      EXPECT_EQ(view.steady_camera().clip_from_relative, plain.clip_from_relative);
+      // The distance of a point in the picture's corners, which the planes hold, from the nearest one: at most a pixel.
+      for (const float x : {-1.0f, 1.0f})
+        for (const float y : {-1.0f, 1.0f}) {
+          const vec4 from_clip = glm::inverse(view.clip_from_relative) * vec4(x, y, 0.1f, 1.0f);
+          const vec3 corner = vec3(from_clip) / from_clip.w;
+          const float pixel = 2.0f / view.clip_from_view[1][1] / static_cast<float>(view.height) *
+                              (settings.camera.orthographic ? 1.0f : glm::length(corner));
+          float nearest = 1e9f;
+          for (int i = 0; i < 4; ++i) {
+            const Plane& plane = view.frustum.planes[static_cast<std::size_t>(i)];
+            nearest = std::min(nearest, glm::dot(plane.normal, corner) + plane.distance);
+          }
+          EXPECT_GE(nearest, -1e-4f * pixel - 1e-6f) << "inside";
+          EXPECT_LE(nearest, 1.01f * pixel);
+        }
+      for (std::size_t i = 0; i < 4; ++i) {
+        const Plane& plane = view.frustum.planes[i];
+        RenderView centred = plain;
+        apply_jitter(centred, vec2(0.0f));
+        EXPECT_EQ(plane.normal, centred.frustum.planes[i].normal);
+        const vec3 moved = vec3(view.position - plain.position);
+        EXPECT_NEAR(plane.distance, centred.frustum.planes[i].distance + glm::dot(plane.normal, moved), 1e-5f);
+      }
+    }
+  }
+}
+
 TEST(Jitter, gives_a_camera_at_rest_no_motion_at_all) {
   for (const ViewSettings& settings : all_kinds_of_views()) {
     RenderView view = make_view(settings, 3);

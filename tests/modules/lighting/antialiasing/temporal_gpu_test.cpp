@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "engine/scene/components.h"
+#include "engine/scene/resources.h"
+#include "modules/particles/components.h"
 #include "tests/modules/lighting/antialiasing/antialiased_frame.h"
 
 namespace gloam {
@@ -27,6 +29,18 @@ struct AccumulatedFrame : test::AntialiasedFrame {
     for (int i = 0; i < 9; ++i) plane(0.12f, {-2.2 + 0.55 * i, 0.0, -0.5}, {0.15, 2.0}, 0.06);
     for (int i = 0; i < 5; ++i) plane(0.8f, {-1.2 + 0.6 * i, 0.2, 0.0}, {0.0075 * (i + 1), 1.2}, 0.1 * i - 0.25);
     plane(0.5f, {0.0, -0.9, 0.2}, {1.3, 0.3}, 0.13);
+  }
+  /// Bars above a floor that mirrors them.
+  void bars_over_a_mirror() {
+    settings = test::look_at(dvec3(0.3, 1.0, 3.0), dvec3(0.0, 0.1, 0.0), 96, 64);
+    Material mirror{.base_color = vec4(1.0f), .metallic = 1.0f, .roughness = 0.0f};
+    mirror.reflectivity = 1.0f;
+    const double quarter_turn = std::acos(0.0);
+    scene.draw(scene.mesh(test::quad(20.0f, scene.material(mirror))),
+               glm::rotate(dmat4(1.0), -quarter_turn, dvec3(1.0, 0.0, 0.0)));
+    for (int i = 0; i < 7; ++i) plane(0.7f, {-1.2 + 0.4 * i, 0.7, -0.5}, {0.03 + 0.02 * i, 0.5}, 0.15 * i - 0.4);
+    set("reflections.mode", "planar");
+    set("reflections.blur", "off");
   }
   /// The picture after some frames that are accumulated from the first one on.
   [[nodiscard]] Picture accumulated(std::uint32_t frames) {
@@ -112,6 +126,68 @@ TEST_F(AccumulatedFrame, shows_views_without_a_history_of_pictures_as_they_are) 
   static_cast<void>(accumulated(3));
   EXPECT_FALSE(view().jittered) << "a sample of another mean";
   EXPECT_EQ(antialiasing_passes(), 3u) << "smoothed as by smaa";
+}
+
+TEST_F(AccumulatedFrame, captures_light_without_jitter) {
+  wires_before_stripes();
+  set("lighting.antialiasing", "taa");
+  gpu::ImageDesc desc{.name = "capture", .module = "test", .format = gpu::Format::rgba16_float};
+  desc.width = settings.width;
+  desc.height = settings.height;
+  desc.usage = gpu::ImageUsage::color_target | gpu::ImageUsage::sampled;
+  const gpu::ImageHandle image = test::value_of(test::shared_device()->create_image(desc));
+  std::vector<ViewRequest> requests = {{settings, {}}, {settings, {}}, {settings, {}}};
+  requests[0].settings.id = ViewId{7};
+  requests[0].target.light = LightTarget{.image = image};
+  requests[1].settings.id = ViewId{8};
+  requests[1].settings.purpose = ViewPurpose::capture;
+  LinearPicture first[2];
+  for (int frame = 0; frame < 4; ++frame) {
+    ASSERT_TRUE(renderer->render(world, requests).ok());
+    ASSERT_TRUE(renderer->wait().ok());
+    EXPECT_FALSE(view(7).jittered);
+    EXPECT_FALSE(view(8).jittered);
+    EXPECT_TRUE(view(0).jittered) << "beside a picture that is";
+    const LinearPicture light = test::value_of(renderer->read_linear(ViewId{8}));
+    if (frame == 0) first[0] = light;
+    EXPECT_EQ(light.rgba, first[0].rgba) << frame;
+  }
+  test::shared_device()->destroy(image);
+}
+
+TEST_F(AccumulatedFrame, mirrors_the_points_that_the_picture_shows) {
+  bars_over_a_mirror();
+  for (const char* resolution : {"full", "half"}) {
+    set("ssr.resolution", resolution);
+    const Picture right = supersampled(64);
+    const double smoothed = psnr(drawn("smaa"), right), found = psnr(accumulated(32), right);
+    EXPECT_GT(found, smoothed + 6.0) << resolution << ": " << found;
+    const RenderView& mirrored = view(CompanionViews::ids_of(ViewId{0})[0].value);
+    EXPECT_TRUE(mirrored.jittered);
+    EXPECT_FLOAT_EQ(mirrored.jitter.x / static_cast<float>(mirrored.width), view().jitter.x / 96.0f);
+    EXPECT_FLOAT_EQ(mirrored.jitter.y / static_cast<float>(mirrored.height), view().jitter.y / 64.0f);
+  }
+}
+
+TEST_F(AccumulatedFrame, shows_sprites_at_once_and_no_trace_of_them_after_four_frames) {
+  plane(0.5f, {0.0, 0.0, -0.5}, {9.0, 9.0});
+  settings.camera.orthographic = false;
+  world.resource<SceneClock>().time_s = 4.0;
+  const Picture without = accumulated(20);
+  ParticleEmitter smoke{.kind = EmitterKind::smoke, .rate = 200.0f, .lifetime_s = 2.0f, .size_m = 0.8f};
+  const Entity emitter = world.create(smoke, WorldTransform{glm::translate(dmat4(1.0), dvec3(0.0, -0.8, 0.5))});
+  draw();
+  const Picture at_once = picture(), with = drawn("off");
+  // Where the smoke is densest.
+  std::size_t densest = 0;
+  const auto change = [&](const Picture& p, std::size_t i) { return std::abs(p.rgba[i] - without.rgba[i]); };
+  for (std::size_t i = 0; i < with.rgba.size(); ++i) densest = change(with, i) > change(with, densest) ? i : densest;
+  EXPECT_GT(change(with, densest), 60);
+  EXPECT_GT(change(at_once, densest), 0.3 * change(with, densest)) << "half of the light is that of the frame";
+  static_cast<void>(accumulated(20));
+  world.destroy(emitter);
+  for (int frame = 0; frame < 5; ++frame) draw();
+  EXPECT_LE(greatest_difference(picture(), without), 2);
 }
 
 TEST_F(AccumulatedFrame, begins_anew_after_a_cut) {
@@ -243,6 +319,30 @@ TEST_F(AccumulatedFrame, keeps_its_history_when_the_scale_changes) {
     draw_scaled(scale);
     EXPECT_GT(psnr(picture(), right), before - 1.5) << "no flash at " << scale;
   }
+}
+
+TEST_F(AccumulatedFrame, samples_textures_for_the_pixels_of_an_enlarged_picture) {
+  // A checkerboard whose squares are 1.5 pixels wide: pixels of half the size show little but its mean.
+  Material material{.base_color = vec4(0.0f, 0.0f, 0.0f, 1.0f), .metallic = 0.0f, .roughness = 1.0f};
+  material.emissive = vec3(0.8f);
+  std::vector<std::uint8_t> texels;
+  for (int i = 0; i < 86 * 86; ++i) {
+    const std::uint8_t value = (i % 86 + i / 86) % 2 == 0 ? 255 : 0;
+    texels.insert(texels.end(), {value, value, value, 255});
+  }
+  material.emissive_texture.texture = scene.texture(86, 86, texels, false);
+  scene.assets().textures.back().nearest = false;
+  scene.draw(scene.mesh(test::quad(3.2f, scene.material(material))),
+             glm::rotate(dmat4(1.0), 0.2, dvec3(0.0, 0.0, 1.0)));
+  EXPECT_EQ(enlarged(1, 1.0).width, 96u);
+  EXPECT_EQ(view().mip_bias, 0.0f);
+  const Picture right = supersampled(64);
+  static_cast<void>(enlarged(1, 0.5));
+  EXPECT_FLOAT_EQ(view().mip_bias, -1.0f);
+  EXPECT_GT(psnr(enlarged(32, 0.5), right), 20.0);
+  set("lighting.antialiasing", "smaa");
+  draw_scaled(0.5);
+  EXPECT_EQ(view().mip_bias, 0.0f) << "without accumulation a sharper mip would flicker";
 }
 
 TEST_F(AccumulatedFrame, leaves_a_picture_that_is_not_accumulated_in_the_size_of_its_view) {
