@@ -29,9 +29,11 @@ std::uint64_t rest_inputs(FrameBuilder& frame, const VisiblePatches& visible) {
   const World& world = frame.world();
   if (wind_blows(world)) return 0;
   const RenderView& view = frame.view();
+  // Neither the blades that cast nor their shadows depend on the jitter.
+  const ViewCamera camera = view.steady_camera();
   const GrassField& field = world.resource<GrassField>();
   Hasher hasher;
-  hasher.bytes_of(view.position).bytes_of(view.clip_from_relative);
+  hasher.bytes_of(camera.position).bytes_of(camera.clip_from_relative);
   hasher.value(view.width).value(view.height).value(frame.knobs().version());
   hasher.value(field.version).value(field.moves).value(world.resource<StepClock>().restarts());
   for (const VisiblePatch& one : visible.patches) hasher.value(one.patch);

@@ -61,9 +61,9 @@ dvec3 world_direction(const RenderView& view, const dvec3& in_view) {
 
 bool is_orthographic(const RenderView& view) { return view.clip_from_view[2][3] == 0.0f; }
 
-/// The view-space point with these normalised device coordinates and this view depth.
+/// The view-space point with these normalised device coordinates and this view depth, without jitter.
 dvec3 view_point(const RenderView& view, double ndc_x, double ndc_y, double depth_m) {
-  const mat4& m = view.clip_from_view;
+  const mat4 m = view.steady_camera().clip_from_view;
   const double w = is_orthographic(view) ? 1.0 : depth_m;
   const double x = (ndc_x * w + static_cast<double>(m[2][0]) * depth_m - static_cast<double>(m[3][0])) / m[0][0];
   const double y = (ndc_y * w + static_cast<double>(m[2][1]) * depth_m - static_cast<double>(m[3][1])) / m[1][1];
@@ -235,7 +235,7 @@ double shadow_distance(const RenderView& view, const CasterBounds& casters) {
   const double near_m = std::abs(static_cast<double>(view.near_m));
   if (!casters.known()) return kDefaultShadowDistance * near_m;
   const double radius = radius_of(casters);
-  const double to_center = glm::length(view.position - center_of(casters));
+  const double to_center = glm::length(view.steady_camera().position - center_of(casters));
   const double distance = 2.0 * radius * std::max(1.0, power_above((to_center + radius) / (2.0 * radius)));
   const double to_casters = std::max(to_center - radius, 0.0);
   const double most = std::max({kMostNearPlanes * near_m, kMostCasterSizes * casters.usual_size(), 1e-30});
@@ -257,8 +257,11 @@ std::vector<double> cascade_splits(double near_m, double far_m, std::uint32_t co
 
 CascadeSphere slice_sphere(const RenderView& view, double near_m, double far_m) {
   std::array<dvec3, 8> corners;
+  // A sphere that followed the jitter would change the cascade's texels in every frame. Half a pixel more at each side
+  // holds what any jitter shows.
+  const double x = view.jittered ? 1.0 + 1.0 / view.width : 1.0, y = view.jittered ? 1.0 + 1.0 / view.height : 1.0;
   for (std::size_t i = 0; i < corners.size(); ++i)
-    corners[i] = view_point(view, (i & 1) == 0 ? -1.0 : 1.0, (i & 2) == 0 ? -1.0 : 1.0, i < 4 ? near_m : far_m);
+    corners[i] = view_point(view, (i & 1) == 0 ? -x : x, (i & 2) == 0 ? -y : y, i < 4 ? near_m : far_m);
   const dvec3 first = view_point(view, 0.0, 0.0, near_m);
   const dvec3 last = view_point(view, 0.0, 0.0, far_m);
   const auto radius_at = [&](double t) {
@@ -282,7 +285,7 @@ CascadeSphere slice_sphere(const RenderView& view, double near_m, double far_m) 
     }
   }
   const double t = 0.5 * (low + high);
-  return {0, view.position + world_direction(view, glm::mix(first, last, t)), radius_at(t)};
+  return {0, view.steady_camera().position + world_direction(view, glm::mix(first, last, t)), radius_at(t)};
 }
 
 std::vector<CascadeSphere> cascade_spheres(const RenderView& view, const CasterBounds& casters, std::uint32_t count) {

@@ -228,6 +228,15 @@ TEST_F(GrassShadowFilter, blades_that_rest_draw_no_maps_and_leave_the_picture_to
   stage.set("shadows.mip_operator", "coverage");
   EXPECT_GT(drawn(), 0.0);
   EXPECT_EQ(differences(kept, stage.linear().rgba), 0u);
+  stage.set("lighting.antialiasing", "taa");
+  stage.draw(view, 16);
+  std::vector<float> before = stage.linear().rgba;
+  for (int i = 0; i < 8; ++i) {
+    EXPECT_EQ(drawn(), 0.0) << i;
+    const std::vector<float> after = stage.linear().rgba;
+    EXPECT_GT(differences(before, after), 0u) << "other points of the pixels";
+    before = after;
+  }
   stage.wind(vec3(4.0f, 0.0f, 0.0f), 0.3f);
   stage.draw(view, 3);
   EXPECT_GT(drawn(), 0.0) << "the wind blows";

@@ -11,6 +11,8 @@
 #include <random>
 #include <vector>
 
+#include "engine/render/camera/jitter.h"
+
 namespace gloam {
 namespace {
 
@@ -99,6 +101,30 @@ TEST(CascadeSpheres, enclose_their_slices_of_every_camera) {
             farthest = std::max(farthest, glm::length(seen_at(view, x, y, d) - sphere.center));
       EXPECT_LE(farthest, sphere.radius_m * (1.0 + 1e-5));
       EXPECT_GE(farthest, sphere.radius_m * (1.0 - 1e-5)) << "a corner lies on it";
+    }
+  }
+}
+
+// Otherwise maps of a view at rest would be drawn anew in each frame.
+TEST(CascadeSpheres, do_not_follow_the_jitter_and_enclose_all_that_it_shows) {
+  ViewSettings settings = camera_at({1, 2, 3}, 0.5, 0.3, 1.2);
+  for (const bool orthographic : {false, true}) {
+    settings.camera.orthographic = orthographic;
+    settings.camera.half_height_m = 7.0f;
+    RenderView first = view_of(settings);
+    apply_jitter(first, vec2(0.0f));
+    const CascadeSphere sphere = slice_sphere(first, 2.0, 9.0);
+    EXPECT_LT(sphere.radius_m, 1.01 * slice_sphere(view_of(settings), 2.0, 9.0).radius_m);
+    for (const vec2 jitter : {vec2(-0.5f, 0.3f), vec2(0.5f, 0.5f), vec2(0.1f, -0.5f)}) {
+      RenderView view = view_of(settings);
+      apply_jitter(view, jitter);
+      EXPECT_EQ(slice_sphere(view, 2.0, 9.0).center, sphere.center);
+      EXPECT_EQ(slice_sphere(view, 2.0, 9.0).radius_m, sphere.radius_m);
+      EXPECT_EQ(shadow_distance(view, box({9, 5, 0}, {3, 3, 3})), shadow_distance(first, box({9, 5, 0}, {3, 3, 3})));
+      for (const double x : {-1.0, 1.0})
+        for (const double y : {-1.0, 1.0})
+          for (const double d : {2.0, 9.0})
+            EXPECT_LE(glm::length(seen_at(view, x, y, d) - sphere.center), sphere.radius_m * (1.0 + 1e-5));
     }
   }
 }
