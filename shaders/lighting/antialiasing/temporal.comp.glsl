@@ -37,11 +37,14 @@ const float kDeviationsAtRest = kEnlarges != 0u ? 1.5 : 1.0;
 const float kRounding = 0.0005;  // of displayed light, that the history may differ by as well
 // That the mean is taken over, at rest and where the picture moves; at most 63.
 const float kMostFrames = kEnlarges != 0u ? 63.0 : float(GLOAM_ACCUMULATED_FRAMES);
-const float kMostFramesMoving = 12.0;
+const float kMostFramesMoving = kEnlarges != 0u ? 8.0 : 6.0;  // each look-up between texels blurs
 // Frames in a row out of range, at rest, until the history is limited.
 const float kPatience = kEnlarges != 0u ? 7.0 : 4.0;
-const float kStill = 0.02;         // pixels a frame: less motion counts as rest
-const float kOtherMotion = 0.5;    // pixels: a greater change of motion shows another surface
+const float kStill = 0.02;       // pixels a frame: less motion counts as rest
+const float kOtherMotion = 0.5;  // pixels: a greater change of motion shows another surface
+// That a history of another motion counts for where the picture moves; 0 elsewhere. Frames hit and miss a wire before
+// the sky in turn, and a wire without a history is a row of dashes.
+const float kFramesOther = kEnlarges != 0u ? 2.0 : 1.0;
 const float kFramesLimited = 4.0;  // that a history counts for which has been limited
 const float kFramesLimitedAtRest = kEnlarges != 0u ? 16.0 : 4.0;
 const float kTrusted = 16.0;      // of a larger picture: the history that points are added to as they are
@@ -151,10 +154,10 @@ void main() {
   PixelState state = unpack_state(inside ? texelFetch(previous_image, nearest, 0).a : 0.0);
   vec2 other = abs(a.motion - texelFetch(previous_motion, nearest, 0).xy);
   bool same = max(other.x, other.y) <= kOtherMotion + 0.25 * max(abs(a.motion.x), abs(a.motion.y));
-  state.frames = inside ? (same ? state.frames : 0.0) : 0.0;
+  state.frames = inside ? (same ? state.frames : still ? 0.0 : min(state.frames, kFramesOther)) : 0.0;
   state.still = still ? min(state.still + 1.0, kStillFrames) : 0.0;
   state.frames = min(state.frames, still ? kMostFrames : kMostFramesMoving);
-  state.frames = min(state.frames, mix(kMostFrames, kSpriteFrames, min(a.sprites, 1.0)));
+  state.frames = min(state.frames, 1.0 / mix(1.0 / kMostFrames, 1.0 / kSpriteFrames, min(a.sprites, 1.0)));
 
   vec3 history = to_ycocg(finite(sharp_previous(at)));
   float over = excess(history, a, state.still < kStillFrames ? kDeviations : kDeviationsAtRest);
