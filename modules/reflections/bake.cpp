@@ -179,8 +179,11 @@ class Bake {
     }
     GLOAM_TRY(add_proxies(proxies));
     // The last frames, so that the captures before do not depend on them.
-    for (const ProbeToBake& probe : probes) {
-      const auto diffuse = capture_diffuse(renderer_, world_, probe.eye, captures_.light_scale);
+    for (std::size_t i = 0; i < probes.size(); ++i) {
+      const std::span<const CapturedSurface> around = captures_.probe_parts[i].surfaces;
+      const auto diffuse =
+          capture_diffuse(renderer_, world_, probes[i].eye, captures_.light_scale,
+                          around.first(probes[i].probe.global ? around.size() : 0), *settings_.executor);
       if (!diffuse.ok()) return diffuse.error();
       captures_.probe_diffuse.push_back(*diffuse);
     }
@@ -263,7 +266,7 @@ class Bake {
 
   [[nodiscard]] Status add_grid(const std::vector<GridCell>& cells) {
     for (const GridCell& cell : cells) {
-      const auto diffuse = capture_diffuse(renderer_, world_, cell.eye, captures_.light_scale);
+      const auto diffuse = capture_diffuse(renderer_, world_, cell.eye, captures_.light_scale, {}, *settings_.executor);
       if (!diffuse.ok()) return diffuse.error();
       captures_.grid.push_back(
           {cell.center, vec3(cell.half), surrounding_lux(captures_.lights, cell.center), *diffuse});

@@ -77,6 +77,8 @@ inline constexpr std::size_t kDiffuseTerms = 9;
 struct ProbeDiffuse {
   std::array<vec3, kDiffuseTerms> lamps{};  ///< the part that lamps cause
   std::array<vec3, kDiffuseTerms> unlit{};  ///< the rest
+  /// Of a probe without a box: see ProbeNeighbourhood. 0 and 0: the light holds everywhere.
+  float reach = 0.0f, open = 0.0f;
 };
 
 /// A place of a grid at which diffuse light was captured, for scenes without probes.

@@ -42,6 +42,14 @@ vec3 volume_terms(DiffuseProbe probe, vec3 n) {
   return max(probe.terms[0].rgb + 0.5 * along, vec3(0.0));  // a cosine lobe has twice that of the linear part
 }
 
+// Share of a probe without a box: all of it near the probe; far from it the sky's light takes its place if the probe
+// sees the sky. 1 with a box.
+float certain_share(DiffuseProbe probe, vec3 position) {
+  vec3 away = position - probe.row.center;
+  float square = min(dot(away, away) * probe.per_square_reach, 1e30);
+  return 1.0 - probe.open * square / (1.0 + square);
+}
+
 // GLOAM_INDIRECT_VOLUME: for points without a surface; normal is n of volume_terms().
 void add_diffuse_probe(inout SurroundingLight sum, DiffuseProbe probe, vec3 position, vec3 normal) {
 #ifdef GLOAM_INDIRECT_VOLUME
@@ -50,6 +58,7 @@ void add_diffuse_probe(inout SurroundingLight sum, DiffuseProbe probe, vec3 posi
   vec3 facing = normal, light = diffuse_terms(probe, normal);
 #endif
   float share = facing_share(probe.row, place_in_probe(probe.row, position), facing) * (1.0 - sum.covered);
+  share *= certain_share(probe, position);
   sum.radiance += share * light;
   sum.covered += share;
 }

@@ -15,6 +15,9 @@ GLOAM_SHARED_BEGIN
 struct DiffuseProbe {
   ProbeRow row;
   vec4 terms[GLOAM_DIFFUSE_TERMS];
+  // Of a probe without a box, otherwise 0 (modules/reflections/diffuse/neighbourhood.h).
+  float open;              // greatest share that sky and ground take far from it
+  float per_square_reach;  // 1 / reach²
 };
 
 /// Diffuse light of all probes of a view.

@@ -28,7 +28,7 @@ namespace gloam {
 namespace {
 
 /// Increment it when the same scene gives other captures than before.
-constexpr std::uint32_t kBakeVersion = 7;
+constexpr std::uint32_t kBakeVersion = 8;
 
 template <class Key>
 std::vector<Entity> sorted_with(const World& world) {

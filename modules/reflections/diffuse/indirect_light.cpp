@@ -126,6 +126,10 @@ std::vector<shaders::DiffuseProbe> diffuse_probes(const World& world, const Rend
     shaders::DiffuseProbe& probe = probes.emplace_back();
     probe.row = row;
     set_terms(probe, diffuse, factor, view.light_scale);
+    if (row.global > 0.0f && diffuse.open > 0.0f) {
+      probe.open = diffuse.open;
+      probe.per_square_reach = std::min(1.0f / (diffuse.reach * diffuse.reach), 1e30f);
+    }
   }
   probes.insert(probes.end(), grid.begin(), grid.end());
   return probes;

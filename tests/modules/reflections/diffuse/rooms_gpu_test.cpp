@@ -185,6 +185,24 @@ TEST_F(DiffuseProbes, a_closed_room_has_no_light_of_the_sky_outside) {
     for (std::uint32_t x = 0; x < settings.width; ++x) ASSERT_LT(greatest(pixel(closed, x, y)), 1e-3);
 }
 
+TEST_F(DiffuseProbes, far_from_a_probe_without_a_box_the_sky_lights_as_without_it) {
+  environment() = {.sky_zenith = vec3(0.2f, 0.3f, 0.5f), .sky_horizon = vec3(0.3f), .sky_ground = vec3(0.1f)};
+  ground(matt(vec3(0.5f)), {0.0, 0.0, 0.0}, {200.0, 200.0});
+  solid(matt(vec3(0.7f, 0.1f, 0.1f)), {0.0, 1.0, -1.2}, vec3(1.5f, 1.0f, 0.1f));
+  light({.intensity = 60.0f}, {0.0, 1.5, -0.4});
+  probe({}, {0.0, 1.0, 0.0}, true);
+  bake(world);
+  // 100 m away, out of the lamp's reach of view: a box in the open.
+  solid(matt(vec3(0.7f)), {100.0, 1.0, 0.0}, vec3(1.0f));
+  settings = look_at(dvec3(103.0, 2.5, 3.0), dvec3(100.0, 1.0, 0.0), 48, 32);
+  const LinearPicture far = with("probes"), sky = with("sky");
+  for (std::uint32_t y = 0; y < settings.height; ++y)
+    for (std::uint32_t x = 0; x < settings.width; ++x)
+      ASSERT_LT(greatest(glm::abs(pixel(far, x, y) / pixel(sky, x, y) - 1.0)), 0.02) << x << " " << y;
+  settings = look_at(dvec3(0.0, 1.5, 1.5), dvec3(0.0, 0.5, -0.5), 48, 32);
+  EXPECT_GT(pixel(with("probes"), 24, 28).r, 1.05 * pixel(with("sky"), 24, 28).r) << "near it the red wall's light";
+}
+
 TEST_F(DiffuseProbes, a_lamp_that_dims_takes_its_bounced_light_along) {
   red_room();
   probe({}, {0.0, 1.5, 0.0}, true);
