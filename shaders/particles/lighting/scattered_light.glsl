@@ -68,6 +68,11 @@ vec3 scattered_light(ParticleEmitterRow e, vec3 position, vec3 outward) {
   if (kMaps != 0u && e.map_slice >= 0.0) {
     vec3 place = map_place(e, position);
     light = baked_light(e, p, place);
+    // Maps hold the light of sky and ground. That of the probes takes its place.
+    if (kIndirect != 0u) {
+      vec3 difference = surrounding_light(position, p.normal).radiance - hemisphere_radiance(environment, p.normal);
+      light = max(light + e.albedo * difference, vec3(0.0));
+    }
     visibility = textureLod(baked_visibility, place, 0.0);
   } else {
     light = e.albedo * surrounding_light(position, p.normal).radiance;

@@ -70,20 +70,21 @@ struct Lit {
     const dvec3 at =
         dvec3(p.position) + static_cast<double>(p.radius_m) * (x * dvec3(frame.right) + y * dvec3(frame.up));
     const dvec3 n = twin_outward(e, frame, p, x, y), albedo(e.albedo);
-    dvec3 sum;
+    const dvec3 sky =
+        albedo * glm::mix(dvec3(scene.kGround), 0.5 * (dvec3(scene.kHorizon) + dvec3(scene.kZenith)), 0.5 + 0.5 * n.y);
+    const dvec3 around =
+        scene.probe ? albedo * (kAround + (kSlopes[0] * n.x + kSlopes[1] * n.y + kSlopes[2] * n.z) / 3.0) : sky;
+    dvec3 sum = around;
     dvec4 visibility(1.0);
     if (e.map_slice >= 0.0f) {
       const dvec3 texel =
           glm::clamp((at - dvec3(e.map_from)) * dvec3(e.map_scale), dvec3(0.5), dvec3(e.map_size) - 0.5);
-      for (int c = 0; c < 3; ++c)
-        sum[c] = static_cast<double>(e.map_light_scale) * albedo[c] *
-                 std::max(glm::dot(scene.flux_at(texel, c), dvec4(n, 1.0)), 0.0) / (4.0 * kTwinPi);
+      for (int c = 0; c < 3; ++c) {
+        const double baked = static_cast<double>(e.map_light_scale) * albedo[c] *
+                             std::max(glm::dot(scene.flux_at(texel, c), dvec4(n, 1.0)), 0.0) / (4.0 * kTwinPi);
+        sum[c] = std::max(baked + around[c] - sky[c], 0.0);  // maps hold the light of the sky
+      }
       visibility = scene.visibility_at(texel);
-    } else if (scene.probe) {
-      sum = albedo * (kAround + (kSlopes[0] * n.x + kSlopes[1] * n.y + kSlopes[2] * n.z) / 3.0);
-    } else {
-      sum = albedo *
-            glm::mix(dvec3(scene.kGround), 0.5 * (dvec3(scene.kHorizon) + dvec3(scene.kZenith)), 0.5 + 0.5 * n.y);
     }
     for (std::uint32_t l = 0; l < e.light_count; ++l) {
       const int at_l = static_cast<int>(l);
@@ -122,7 +123,6 @@ TEST_F(ParticleLightKernel, is_the_light_of_the_twin_at_middles_and_corners_with
 }
 
 TEST_F(ParticleLightKernel, of_a_probe_takes_the_place_of_sky_and_ground) {
-  Lit lit(false);
   shaders::DiffuseProbe probe{};
   probe.row.global = 1.0f;
   probe.row.fade = 0.2f;
@@ -131,14 +131,18 @@ TEST_F(ParticleLightKernel, of_a_probe_takes_the_place_of_sky_and_ground) {
   probe.terms[1] = vec4(vec3(kSlopes[1] * (2.0 / 3.0)), 0.0f);
   probe.terms[2] = vec4(vec3(kSlopes[2] * (2.0 / 3.0)), 0.0f);
   probe.terms[3] = vec4(vec3(kSlopes[0] * (2.0 / 3.0)), 0.0f);
-  lit.scene.probe = probe;
-  const std::vector<uvec2> found = lit.scene.run(device(), 1, false);
-  for (std::uint32_t i = 0; i < lit.scene.order.size(); ++i) {
-    const dvec3 wanted = lit.expected(i, 0.0, 0.0);
-    const auto half = [](std::uint32_t bits) { return half_to_float(static_cast<std::uint16_t>(bits)); };
-    const vec3 light(half(found[i].x), half(found[i].x >> 16), half(found[i].y));
-    for (int c = 0; c < 3; ++c)
-      EXPECT_NEAR(static_cast<double>(light[c]), wanted[c], 4e-3 * wanted[c] + 1e-5) << i << " " << c;
+  for (const bool maps : {false, true}) {
+    Lit lit(maps);
+    lit.scene.probe = probe;
+    const std::vector<uvec2> found = lit.scene.run(device(), 1, maps);
+    for (std::uint32_t i = 0; i < lit.scene.order.size(); ++i) {
+      const dvec3 wanted = lit.expected(i, 0.0, 0.0);
+      const auto half = [](std::uint32_t bits) { return half_to_float(static_cast<std::uint16_t>(bits)); };
+      const vec3 light(half(found[i].x), half(found[i].x >> 16), half(found[i].y));
+      for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(static_cast<double>(light[c]), wanted[c], 4e-3 * wanted[c] + 1e-5)
+            << i << " " << c << ", maps " << maps;
+    }
   }
 }
 
