@@ -32,6 +32,7 @@
 #include "modules/reflections/diffuse/capture.h"
 #include "modules/reflections/diffuse/grid.h"
 #include "modules/reflections/diffuse/indirect_light.h"
+#include "modules/reflections/knobs.h"
 #include "modules/reflections/materials.h"
 #include "modules/reflections/relighting/light_states.h"
 #include "modules/reflections/scene_unit.h"
@@ -160,13 +161,18 @@ class Bake {
       cells = open_cells(occupied_cells(triangle_bounds(world_), settings_.grid_probes, scene_unit(world_)), **tracer);
     }
     total_ = proxies.size() + probes.size() + cells.size();
-    captures_.content = capture_content(world_);
+    const IndirectSource light = renderer_.knobs().value(kIndirectLight);
+    captures_.content = capture_content(world_, light);
     captures_.light_scale = light_scale(scene_brightness(world_));
     captures_.lights = light_states(world_);
     if (settings_.progress) settings_.progress(0, total_);
     // Captures show what pictures show: surfaces that reflect their surroundings. Probes are captured twice, first with
     // the sky alone for surroundings, then with each other.
     WorldCaptures shown(world_);
+    if (light == IndirectSource::probes) {
+      GLOAM_TRY(add_diffuse(probes, cells));
+      shown.show(with_places(probes));
+    }
     counting_ = !shows_probes;
     GLOAM_TRY(add_probes(probes));
     counting_ = true;
@@ -179,15 +185,7 @@ class Bake {
     }
     GLOAM_TRY(add_proxies(proxies));
     // The last frames, so that the captures before do not depend on them.
-    for (std::size_t i = 0; i < probes.size(); ++i) {
-      const std::span<const CapturedSurface> around = captures_.probe_parts[i].surfaces;
-      const auto diffuse =
-          capture_diffuse(renderer_, world_, probes[i].eye, captures_.light_scale,
-                          around.first(probes[i].probe.global ? around.size() : 0), *settings_.executor);
-      if (!diffuse.ok()) return diffuse.error();
-      captures_.probe_diffuse.push_back(*diffuse);
-    }
-    GLOAM_TRY(add_grid(cells));
+    if (light != IndirectSource::probes) GLOAM_TRY(add_diffuse(probes, cells));
     return std::move(captures_);
   }
 
@@ -262,6 +260,31 @@ class Bake {
     captures_.proxy_parts.emplace_back();
     append_mip_chain(std::move(picture), captures_.proxies.texels);
     tell_progress();
+  }
+
+  /// Diffuse light of probes and grid.
+  [[nodiscard]] Status add_diffuse(const std::vector<ProbeToBake>& probes, const std::vector<GridCell>& cells) {
+    for (const ProbeToBake& probe : probes) {
+      std::vector<CapturedSurface> around;
+      if (probe.probe.global) {
+        auto surfaces = probe_surfaces(renderer_, world_, probe.eye);
+        if (!surfaces.ok()) return surfaces.error();
+        around = std::move(surfaces).value();
+      }
+      const auto diffuse =
+          capture_diffuse(renderer_, world_, probe.eye, captures_.light_scale, around, *settings_.executor);
+      if (!diffuse.ok()) return diffuse.error();
+      captures_.probe_diffuse.push_back(*diffuse);
+    }
+    if (settings_.grid_probes == 0) captures_.grid = settings_.grid;
+    return add_grid(cells);
+  }
+
+  /// The captures so far, which have no pictures yet, for probes in their places.
+  [[nodiscard]] ReflectionCaptures with_places(const std::vector<ProbeToBake>& probes) const {
+    ReflectionCaptures light = captures_;
+    for (const ProbeToBake& probe : probes) light.probe_entities.push_back(probe.entity);
+    return light;
   }
 
   [[nodiscard]] Status add_grid(const std::vector<GridCell>& cells) {

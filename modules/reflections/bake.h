@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "engine/core/log.h"
 #include "engine/core/result.h"
@@ -17,6 +18,7 @@
 #include "engine/render/reference/scene_tracer.h"
 #include "engine/render/renderer.h"
 #include "modules/reflections/captures.h"
+#include "modules/reflections/knobs.h"
 
 namespace gloam {
 
@@ -24,10 +26,11 @@ namespace gloam {
 using BakeProgress = std::function<void(std::size_t done, std::size_t total)>;
 
 struct BakeSettings {
-  JobExecutor* executor = nullptr;  ///< must be set
-  BakeProgress progress;            ///< may be empty
-  std::uint32_t proxy_side = 128;   ///< texels of a proxy's image, a power of two
-  std::uint32_t grid_probes = 0;    ///< most probes of a grid for diffuse light (ReflectionCaptures::grid)
+  JobExecutor* executor = nullptr;   ///< must be set
+  BakeProgress progress;             ///< may be empty
+  std::uint32_t proxy_side = 128;    ///< texels of a proxy's image, a power of two
+  std::uint32_t grid_probes = 0;     ///< most probes of a grid for diffuse light (ReflectionCaptures::grid)
+  std::vector<GridProbe> grid = {};  ///< of an earlier bake, taken over if grid_probes is 0
   /// Triangles of the world as its systems left them; must be set if grid_probes > 0. It tells which places lie inside
   /// walls.
   std::function<Result<std::unique_ptr<SceneTracer>>(const World& world)> make_tracer = {};
@@ -35,9 +38,10 @@ struct BakeSettings {
 
 /// Captures all proxies and probes of the world, in its pose at the SceneClock's time: runs the scene systems, then
 /// draws frames of views with the purpose `capture`. Each frame counts as a frame of the world, and the captures depend
-/// on the renderer's knobs. A caller whose pictures must not depend on a bake gives it a renderer and a world of their
-/// own, and hands the result over with encode_captures() and decode_captures(). Error: an image file of a proxy cannot
-/// be read, a light is unknown, or a frame failed.
+/// on the renderer's knobs: with lighting.indirect=probes they show surfaces in that light. A caller whose pictures
+/// must not depend on a bake gives it a renderer and a world of their own, and hands the result over with
+/// encode_captures() and decode_captures(). Error: an image file of a proxy cannot be read, a light is unknown, or a
+/// frame failed.
 [[nodiscard]] Result<ReflectionCaptures> bake_reflections(Renderer& renderer, World& world,
                                                           const BakeSettings& settings);
 
@@ -51,10 +55,10 @@ void attach_captures(World& world, ReflectionCaptures captures);
 
 /// Hash of everything that the captures of a world depend on: the meshes, materials, textures and places of static
 /// instances, lights with their cookies, sky, proxies with their image files, probes, and the version of the bake. Not
-/// of cameras, knobs and time: of animated nodes it hashes the animation and not the current pose. Reads image files of
-/// proxies and cookies; a file that cannot be read counts as empty. The world's scene systems must have run once. 0 is
-/// never returned.
-[[nodiscard]] std::uint64_t capture_content(const World& world);
+/// of cameras and time, and of one knob: of animated nodes it hashes the animation and not the current pose. Reads
+/// image files of proxies and cookies; a file that cannot be read counts as empty. The world's scene systems must have
+/// run once. 0 is never returned.
+[[nodiscard]] std::uint64_t capture_content(const World& world, IndirectSource light = IndirectSource::sky);
 
 /// The captures as bytes. Entities are stored as positions among the world's entities of their kind (proxies, probes,
 /// lights), ordered by entity index, so that another world of the same content can read them.

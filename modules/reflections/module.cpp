@@ -183,9 +183,9 @@ class ReflectionsModule final : public Module {
   }
   /// Proxies and probes alone demand nothing: only reflective materials show them.
   [[nodiscard]] Demand demand(const World& world, const RenderView* view) const override {
-    if (view != nullptr && view->purpose == ViewPurpose::capture &&
-        world.resource<ReflectionCaptures>().probe_entities.empty())
-      return {false, "captures reflect captured probes only"};
+    if (view != nullptr && view->purpose == ViewPurpose::capture && !reflects_probes(world, *view) &&
+        !has_diffuse_light(world))
+      return {false, "captures show light of captured probes only"};
     if (view != nullptr && !sees_surfaces(world, *view)) return {false, "only sky in view"};
     Demand demand = reflective_demand(world, view);
     if (!demand.needed && has_diffuse_light(world)) return {true, "probes with diffuse light, " + demand.reason};
@@ -217,7 +217,7 @@ class ReflectionsModule final : public Module {
   void add_passes(FrameBuilder& frame, PassPhase phase) override {
     if (phase == PassPhase::announce) {
       announce_indirect_light(frame, staging_, factors_of(frame.world()));
-      announce(frame);
+      if (reflects_probes(frame.world(), frame.view())) announce(frame);
     }
     if (phase == PassPhase::lists) add_reflection_list_passes(frame);
     if (phase == PassPhase::shading) add_reflection_passes(frame, staging_, factors_of(frame.world()));
@@ -250,6 +250,10 @@ class ReflectionsModule final : public Module {
   }
 
  private:
+  /// Captures reflect captured probes only.
+  static bool reflects_probes(const World& world, const RenderView& view) {
+    return view.purpose != ViewPurpose::capture || !world.resource<ReflectionCaptures>().probe_entities.empty();
+  }
   static ProxyTileSettings tile_settings(const World& world, ViewId view, const KnobRegistry& registry) {
     const ReflectionKnobs knobs = reflection_knobs(registry);
     ProxyTileSettings settings = knobs.tiles;

@@ -109,7 +109,8 @@ SurroundingProbes surrounding_probes(FrameBuilder& frame, std::span<const Captur
   const World& world = frame.world();
   const auto& captures = world.resource<ReflectionCaptures>();
   SurroundingProbes probes;
-  probes.rows = probe_rows(world, frame.view(), captures, factors);
+  // A bake has diffuse light of probes before their images.
+  if (captures.probes.count > 0) probes.rows = probe_rows(world, frame.view(), captures, factors);
   probes.factors.assign(cells.begin(), cells.end());
   probes.scale = frame.view().light_scale / captures.light_scale;
   return probes;

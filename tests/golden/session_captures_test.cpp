@@ -67,6 +67,27 @@ struct SessionCaptures : testing::Test {
   }
 };
 
+TEST_F(SessionCaptures, in_the_light_of_probes_are_others_and_made_when_the_knob_changes) {
+  const auto session = open();
+  ASSERT_TRUE(session != nullptr);
+  std::size_t captured = 0;
+  const BakeProgress count = [&](std::size_t done, std::size_t) { captured = std::max(captured, done); };
+  const auto content_with = [&](IndirectSource source, std::size_t expected) {
+    captured = 0;
+    EXPECT_TRUE(session->renderer->knobs().set(kIndirectLight.name, name_of(source)).ok());
+    EXPECT_TRUE(ensure_captures(*session, options, gpu_log(), count).ok());
+    EXPECT_EQ(captured, expected) << name_of(source);
+    const std::uint64_t content = session->world.resource<ReflectionCaptures>().content;
+    EXPECT_EQ(content, capture_content(session->world, source));
+    return content;
+  };
+  const std::uint64_t sky = content_with(IndirectSource::sky, 2);
+  EXPECT_NE(content_with(IndirectSource::probes, 2), sky);
+  EXPECT_EQ(content_with(IndirectSource::sky, 0), sky) << "the cache has both";
+  EXPECT_NE(content_with(IndirectSource::probes, 0), sky);
+  EXPECT_TRUE(session->check_validation().ok());
+}
+
 TEST_F(SessionCaptures, are_the_same_from_a_bake_and_from_the_cache) {
   const auto first = open(), second = open();
   ASSERT_TRUE(first != nullptr && second != nullptr);

@@ -220,7 +220,7 @@ void add_probes(Hasher& hasher, const World& world, const PoseHashes& poses) {
 
 }  // namespace
 
-std::uint64_t capture_content(const World& world) {
+std::uint64_t capture_content(const World& world, IndirectSource light) {
   const PoseHashes poses(world);
   const std::vector<Entity> lights = sorted_with<Light>(world);
   Hasher hasher;
@@ -239,6 +239,7 @@ std::uint64_t capture_content(const World& world) {
   add_proxies(hasher, world, poses, lights);
   hasher.text("probes");
   add_probes(hasher, world, poses);
+  if (light != IndirectSource::sky) hasher.text(name_of(light));
   if (const CapturedExtras* extras = world.try_resource<CapturedExtras>())
     for (const auto& [module, content] : extras->content) hasher.text(module).value(content(world));
   return std::max<std::uint64_t>(hasher.digest(), 1);

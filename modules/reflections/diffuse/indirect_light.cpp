@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "engine/ecs/view.h"
+#include "modules/reflections/bake/capture_view.h"
 #include "modules/reflections/components.h"
 #include "modules/reflections/knobs.h"
 #include "modules/reflections/override.h"
@@ -56,17 +57,18 @@ shaders::ProbeRow upright_row(const RenderView& view, const dvec3& center, const
 
 /// The grid's cells, and a box around all of them with their mean.
 std::vector<shaders::DiffuseProbe> grid_probes(const World& world, const RenderView& view,
-                                               const ReflectionCaptures& captures, bool follow) {
+                                               const ReflectionCaptures& captures, const LampFactors& lamps) {
   constexpr double kBeyond = 1.5;  // of a cell's half size
   constexpr auto kFade = static_cast<float>(1.0 - 1.0 / kBeyond);
   std::vector<shaders::DiffuseProbe> probes;
   if (captures.grid.empty()) return probes;
+  const bool follow = lamps.factors.data() != nullptr;
   const std::vector<CapturedLightState> now = follow ? light_states(world) : captures.lights;
   const bool changed = now != captures.lights;
   dvec3 least(captures.grid.front().center), most(least);
   shaders::DiffuseProbe mean{};
   for (const GridProbe& cell : captures.grid) {
-    vec3 factor(1.0f);
+    vec3 factor(lamps.lamps ? 1.0f : 0.0f);
     const vec3 lux = changed ? surrounding_lux(now, cell.center) : cell.lamps_lux;
     for (int c = 0; c < 3; ++c)
       if (cell.lamps_lux[c] > 0.0f) factor[c] = std::min(lux[c] / cell.lamps_lux[c], kMostCaptureFactor);
@@ -109,15 +111,13 @@ vec3 surrounding_lux(std::span<const CapturedLightState> lights, const dvec3& po
 }
 
 std::vector<shaders::DiffuseProbe> diffuse_probes(const World& world, const RenderView& view,
-                                                  const ReflectionCaptures& captures,
-                                                  std::span<const CaptureFactor> factors, std::span<const vec4> cells) {
-  const bool follow = factors.data() != nullptr;
-  std::vector<shaders::DiffuseProbe> probes, grid = grid_probes(world, view, captures, follow);
+                                                  const ReflectionCaptures& captures, const LampFactors& lamps) {
+  std::vector<shaders::DiffuseProbe> probes, grid = grid_probes(world, view, captures, lamps);
   for (const shaders::ProbeRow& row : probe_rows(world, view, captures)) {
     const auto layer = static_cast<std::size_t>(row.layer);
     if (layer >= captures.probe_diffuse.size()) continue;
     const ProbeDiffuse& diffuse = captures.probe_diffuse[layer];
-    const vec3 factor = lamp_factor(captures, layer, factors, cells);
+    const vec3 factor = lamps.lamps ? lamp_factor(captures, layer, lamps.factors, lamps.cells) : vec3(0.0f);
     if (row.global > 0.0f && !grid.empty()) {
       grid.pop_back();  // the mean
       probes.insert(probes.end(), grid.begin(), grid.end());
@@ -144,16 +144,20 @@ bool has_diffuse_light(const World& world) {
 void announce_indirect_light(FrameBuilder& frame, Staging& staging, CaptureFactors& factors) {
   const World& world = frame.world();
   const RenderView& view = frame.view();
-  if (view.purpose == ViewPurpose::capture) return;
+  const bool captured = view.purpose == ViewPurpose::capture;
+  if (captured && world.try_resource<SurroundingsLeftOut>() != nullptr) return;
   IndirectLight light;
   if (frame.knobs().value(kIndirectLight) == IndirectSource::probes) {
     const auto& captures = world.resource<ReflectionCaptures>();
-    if (frame.knobs().value(kReflectionLightScale)) factors.update(world, captures);
-    const bool follow = frame.knobs().value(kReflectionLightScale);
-    light.probes = diffuse_probes(world, view, captures, follow ? factors.probes() : std::span<const CaptureFactor>{},
-                                  follow ? factors.cells() : std::span<const vec4>{});
+    const bool unlit = captured && is_unlit_capture(view.id);
+    const bool follow = !unlit && frame.knobs().value(kReflectionLightScale);
+    if (follow) factors.update(world, captures);
+    light.probes = diffuse_probes(world, view, captures,
+                                  {.factors = follow ? factors.probes() : std::span<const CaptureFactor>{},
+                                   .cells = follow ? factors.cells() : std::span<const vec4>{},
+                                   .lamps = !unlit});
   }
-  if (const TracedIndirect* traced = traced_indirect_of(world, view))
+  if (const TracedIndirect* traced = captured ? nullptr : traced_indirect_of(world, view))
     light.traced = upload_traced(frame, staging, "indirect_traced", *traced);
   if (!light.probes.empty() || light.traced) frame.put(std::move(light));
 }

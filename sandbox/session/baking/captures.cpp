@@ -16,6 +16,7 @@
 #include "modules/accuracy/module.h"
 #include "modules/module_list/module_list.h"
 #include "modules/reflections/components.h"
+#include "modules/reflections/knobs.h"
 #include "sandbox/output/progress_bar.h"
 #include "sandbox/session/baking/particle_light.h"
 #include "sandbox/session/loading/scene_loading.h"
@@ -29,20 +30,24 @@ bool wants_captures(const Session& session) {
   });
 }
 
-bool wants_probes(const Session& session) {
+IndirectSource indirect_light(const Session& session) {
   const KnobRegistry& knobs = session.renderer->knobs();
-  const Knob* source = knobs.find("lighting.indirect");
-  return source != nullptr && knobs.text(*source) == "probes";
+  return knobs.find(kIndirectLight.name) == nullptr ? IndirectSource::sky : knobs.value(kIndirectLight);
 }
 
-std::optional<ReflectionCaptures> load_kept(const Session& session, const Options& options, std::uint64_t content,
+std::optional<ReflectionCaptures> load_kept(const Session& session, const Options& options, IndirectSource light,
                                             LogSink& log) {
+  const std::uint64_t content = capture_content(session.world, light);
   for (const std::string& path : {captures_beside(options.scene), cached_captures(session, options, content)}) {
     if (path.empty()) continue;
-    if (auto captures = load_captures(path, session.world, content, log)) return captures;
+    // The one file beside a scene may be of either light.
+    LogSink& listener = light == IndirectSource::sky ? log : null_log();
+    if (auto captures = load_captures(path, session.world, content, listener)) return captures;
   }
   return std::nullopt;
 }
+
+bool has_pictures(const ReflectionCaptures& captures) { return captures.proxies.count + captures.probes.count > 0; }
 
 /// Whether a file of captures may exist, found without a hash of the scene's content.
 bool may_have_kept(const Options& options) {
@@ -69,13 +74,14 @@ std::string cached_captures(const Session& session, const Options& options, std:
 }
 
 Result<ReflectionCaptures> bake_scene(Session& session, const Options& options, LogSink& log,
-                                      const BakeProgress& progress) {
+                                      const BakeProgress& progress, std::vector<GridProbe> grid) {
   auto renderer = Renderer::create({.device = session.device.get(),
                                     .executor = session.executor.get(),
                                     .log = &log,
                                     .progress = &session.pipelines,
                                     .modules = make_all_modules()});
   if (!renderer) return renderer.error();
+  GLOAM_TRY((*renderer)->knobs().set(kIndirectLight.name, name_of(indirect_light(session))));
   World world;
   (*renderer)->prepare_world(world);
   // The session's own load has logged the warnings.
@@ -89,6 +95,7 @@ Result<ReflectionCaptures> bake_scene(Session& session, const Options& options, 
       {.executor = &executor,
        .progress = progress,
        .grid_probes = options.grid_probes,
+       .grid = std::move(grid),
        .make_tracer = [&executor](const World& traced) { return make_scene_tracer(traced, executor); }});
   const Status idle = (*renderer)->wait();
   (*renderer)->release_world(world);
@@ -100,20 +107,30 @@ Result<ReflectionCaptures> bake_scene(Session& session, const Options& options, 
 }
 
 Status ensure_captures(Session& session, const Options& options, LogSink& log, const BakeProgress& progress) {
+  const IndirectSource light = indirect_light(session);
   const bool wanted =
-      wants_captures(session) || (wants_probes(session) && session.world.view<const CubeProbe>().size() > 0);
+      wants_captures(session) || (light == IndirectSource::probes && session.world.view<const CubeProbe>().size() > 0);
   // A scene that demands no captures may have kept ones with diffuse light (bake --probes). They are read whatever
   // lighting.indirect is, because it may change later.
   if (!wanted && !may_have_kept(options)) return {};
-  const std::uint64_t content = capture_content(session.world);
-  if (auto kept = load_kept(session, options, content, log)) {
+  auto kept = load_kept(session, options, light, log);
+  std::vector<GridProbe> grid;
+  if (!kept && light == IndirectSource::probes) {
+    // The grid of captures in the light of the sky serves, too, and so do all of them if they have no pictures.
+    kept = load_kept(session, options, IndirectSource::sky, log);
+    if (kept && has_pictures(*kept)) {
+      grid = std::move(kept->grid);
+      kept.reset();
+    }
+  }
+  if (kept) {
     attach_captures(session.world, std::move(*kept));
     return {};
   }
   if (!wanted) return {};
-  auto captures = bake_scene(session, options, log, progress);
+  auto captures = bake_scene(session, options, log, progress, std::move(grid));
   if (!captures) return captures.error();
-  if (const std::string path = cached_captures(session, options, content); !path.empty())
+  if (const std::string path = cached_captures(session, options, captures->content); !path.empty())
     if (const Status saved = save_captures(path, session.world, *captures); !saved.ok())
       log.warning(saved.error().message);
   attach_captures(session.world, std::move(captures).value());

@@ -8,9 +8,12 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <string>
 #include <vector>
 
+#include "engine/math/packing.h"
 #include "modules/reflections/diffuse/harmonics.h"
+#include "modules/reflections/knobs.h"
 #include "modules/reflections/reference/shading.h"
 #include "tests/modules/reflections/judging/judged_scene.h"
 
@@ -280,6 +283,31 @@ TEST_F(DiffuseProbes, far_from_a_probe_without_a_box_the_sky_lights_as_without_i
       ASSERT_LT(greatest(glm::abs(pixel(far, x, y) / pixel(sky, x, y) - 1.0)), 0.02) << x << " " << y;
   settings = look_at(dvec3(0.0, 1.5, 1.5), dvec3(0.0, 0.5, -0.5), 48, 32);
   EXPECT_GT(pixel(with("probes"), 24, 28).r, 1.05 * pixel(with("sky"), 24, 28).r) << "near it the red wall's light";
+}
+
+TEST_F(DiffuseProbes, captures_show_the_light_of_probes_and_in_a_closed_room_no_sky) {
+  red_room();
+  const Entity one = probe(vec3(5.0f, 3.75f, 7.5f), {0.0, 1.5, 0.0});
+  world.get<CubeProbe>(one).resolution = 16;
+  const auto mean_of_captured = [&](const char* source, float outside) {
+    EXPECT_TRUE(renderer->knobs().set("lighting.indirect", source).ok());
+    sky(vec3(outside));
+    bake(world);
+    const auto& captures = world.resource<ReflectionCaptures>();
+    EXPECT_EQ(captures.content, capture_content(world, renderer->knobs().value(kIndirectLight)));
+    dvec3 sum(0.0);
+    const std::size_t texels = std::size_t{captures.probes.side} * captures.probes.side;
+    for (std::size_t i = 0; i < texels; ++i)
+      for (std::size_t c = 0; c < 3; ++c)
+        sum[static_cast<int>(c)] += static_cast<double>(half_to_float(captures.probes.texels[4 * i + c]));
+    return sum / (static_cast<double>(captures.light_scale) * static_cast<double>(texels));
+  };
+  const dvec3 lamp = mean_of_captured("sky", 0.0f), dark = mean_of_captured("probes", 0.0f);
+  const dvec3 bright = mean_of_captured("probes", 10.0f);
+  EXPECT_GT(mean_of_captured("sky", 10.0f).r, 5.0) << "the room's walls in the light of the sky";
+  EXPECT_LT(greatest(glm::abs(bright / dark - 1.0)), 0.01);
+  EXPECT_GT(greatest(dark - lamp), 0.05 * lamp.r) << "the walls light each other";
+  EXPECT_GT((dark - lamp).r, 1.1 * (dark - lamp).g) << "in red";
 }
 
 TEST_F(DiffuseProbes, a_lamp_that_dims_takes_its_bounced_light_along) {
