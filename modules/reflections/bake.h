@@ -18,7 +18,6 @@
 #include "engine/render/reference/scene_tracer.h"
 #include "engine/render/renderer.h"
 #include "modules/reflections/captures.h"
-#include "modules/reflections/knobs.h"
 
 namespace gloam {
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "engine/ecs/entity.h"
@@ -68,6 +69,18 @@ struct CapturedParts {
   float lit = 0.0f;    ///< mean luminance of the part that lamps cause, cd/m²
   float unlit = 0.0f;  ///< mean luminance of the other part, cd/m²
 };
+
+/// Values of the knob lighting.indirect: where light of the surroundings comes from.
+enum class IndirectSource : std::uint8_t { sky, probes };
+[[nodiscard]] constexpr std::string_view name_of(IndirectSource source) {
+  switch (source) {
+    case IndirectSource::sky:
+      return "sky";
+    case IndirectSource::probes:
+      return "probes";
+  }
+  return {};
+}
 
 /// Terms of diffuse light: spherical harmonics of order 2.
 inline constexpr std::size_t kDiffuseTerms = 9;

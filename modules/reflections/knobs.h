@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "engine/render/knobs/knob_table.h"
+#include "modules/reflections/captures.h"
 #include "modules/reflections/culling/tiles.h"
 #include "modules/reflections/module.h"
 
@@ -17,17 +18,6 @@ struct ReflectionTiers {
   bool proxies = true;       ///< tier 2
   bool operator==(const ReflectionTiers&) const = default;
 };
-
-enum class IndirectSource : std::uint8_t { sky, probes };
-[[nodiscard]] constexpr std::string_view name_of(IndirectSource source) {
-  switch (source) {
-    case IndirectSource::sky:
-      return "sky";
-    case IndirectSource::probes:
-      return "probes";
-  }
-  return {};
-}
 
 /// Current values of the module's knobs.
 struct ReflectionKnobs {

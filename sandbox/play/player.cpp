@@ -12,6 +12,7 @@
 #include "sandbox/output/file_io.h"
 #include "sandbox/play/display/screenshot_path.h"
 #include "sandbox/play/input/dropped_scene.h"
+#include "sandbox/session/baking/captures.h"
 #include "sandbox/session/drawing/frame_tracing.h"
 #include "sandbox/session/drawing/session_budget.h"
 #include "sandbox/session/loading/scene_loading.h"
@@ -32,6 +33,12 @@ constexpr std::uint32_t kUnjudgedAfterFull = gpu::Device::kFramesInFlight + 2;
 constexpr double kKeptPictureS = 0.05;
 constexpr double kLineReach = 6.0;  // pixels of a standard display from which the pointer grabs the wipe's line
 
+std::string indirect_light(const Session& session) {
+  const KnobRegistry& knobs = session.renderer->knobs();
+  const Knob* source = knobs.find("lighting.indirect");
+  return source == nullptr ? std::string() : knobs.text(*source);
+}
+
 }  // namespace
 
 Player::Player(const Options& options, Session& session, WindowPictures& pictures, Lasting& lasting, LogSink& log)
@@ -51,6 +58,7 @@ Player::Player(const Options& options, Session& session, WindowPictures& picture
       shaders_(options.shaders),
       time_s_(options.time_s) {
   settings_ = session.view_settings(options.width, options.height, options.view);
+  captured_light_ = indirect_light(session);
   last_ns_ = session.zones.now_ns();
 }
 
@@ -70,6 +78,7 @@ Status Player::run() {
     if (window.should_close() || (input.leave && panel_.may_leave(options_.scene))) break;
     keep_settings();
     GLOAM_TRY(obey(input));
+    follow_indirect_light();
     if (!next_scene_.empty()) break;
     drop_view_without_its_knob();
     GLOAM_TRY(move_camera(input));
@@ -321,6 +330,16 @@ std::string Player::scale_note() const {
     return "at rest: full size; " + scale_text(moving_scale(), moving_scale()) + " when something moves";
   if (!paused_ && scene_moves(session_)) return "the scene moves; pause it to see it at full size";
   return "full size when nothing moves";
+}
+
+/// Gives the world the captures that belong to lighting.indirect once its value has changed.
+void Player::follow_indirect_light() {
+  std::string now = indirect_light(session_);
+  if (now == captured_light_) return;
+  captured_light_ = std::move(now);
+  whole_ = false;
+  const Status captured = ensure_captures(session_, options_, log_);
+  if (!captured.ok()) panel_.tell(captured.error().message, true);
 }
 
 /// Draws with the shaders that were changed; the panel shows why one cannot be used.

@@ -107,6 +107,7 @@ class Player {
   [[nodiscard]] Status add_overlays(FrameGraph& graph, ImageRef& window);
   [[nodiscard]] Status render(const ViewRequest& request);
   [[nodiscard]] Status count_shown(bool first);
+  void follow_indirect_light();
 
   const Options& options_;
   Session& session_;
@@ -125,6 +126,7 @@ class Player {
   Refinement refinement_;
   std::uint32_t unjudged_ = 0;   ///< frames whose times say nothing about the reduced scale
   std::uint64_t reloads_ = 0;    ///< of shaders
+  std::string captured_light_;   ///< lighting.indirect of the world's captures
   PanelInput last_panel_input_;  ///< of the last frame
   bool active_ = false;          ///< the input has changed since then
   WindowTitle title_;

@@ -74,7 +74,7 @@ TEST_F(SessionCaptures, in_the_light_of_probes_are_others_and_made_when_the_knob
   const BakeProgress count = [&](std::size_t done, std::size_t) { captured = std::max(captured, done); };
   const auto content_with = [&](IndirectSource source, std::size_t expected) {
     captured = 0;
-    EXPECT_TRUE(session->renderer->knobs().set(kIndirectLight.name, name_of(source)).ok());
+    EXPECT_TRUE(session->renderer->knobs().set("lighting.indirect", name_of(source)).ok());
     EXPECT_TRUE(ensure_captures(*session, options, gpu_log(), count).ok());
     EXPECT_EQ(captured, expected) << name_of(source);
     const std::uint64_t content = session->world.resource<ReflectionCaptures>().content;

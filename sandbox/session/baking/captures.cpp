@@ -16,7 +16,6 @@
 #include "modules/accuracy/module.h"
 #include "modules/module_list/module_list.h"
 #include "modules/reflections/components.h"
-#include "modules/reflections/knobs.h"
 #include "sandbox/output/progress_bar.h"
 #include "sandbox/session/baking/particle_light.h"
 #include "sandbox/session/loading/scene_loading.h"
@@ -30,9 +29,13 @@ bool wants_captures(const Session& session) {
   });
 }
 
-IndirectSource indirect_light(const Session& session) {
+constexpr const char* kIndirectKnob = "lighting.indirect";
+
+IndirectSource chosen_light(const Session& session) {
   const KnobRegistry& knobs = session.renderer->knobs();
-  return knobs.find(kIndirectLight.name) == nullptr ? IndirectSource::sky : knobs.value(kIndirectLight);
+  const Knob* source = knobs.find(kIndirectKnob);
+  const bool probes = source != nullptr && knobs.text(*source) == name_of(IndirectSource::probes);
+  return probes ? IndirectSource::probes : IndirectSource::sky;
 }
 
 std::optional<ReflectionCaptures> load_kept(const Session& session, const Options& options, IndirectSource light,
@@ -81,7 +84,7 @@ Result<ReflectionCaptures> bake_scene(Session& session, const Options& options, 
                                     .progress = &session.pipelines,
                                     .modules = make_all_modules()});
   if (!renderer) return renderer.error();
-  GLOAM_TRY((*renderer)->knobs().set(kIndirectLight.name, name_of(indirect_light(session))));
+  GLOAM_TRY((*renderer)->knobs().set(kIndirectKnob, name_of(chosen_light(session))));
   World world;
   (*renderer)->prepare_world(world);
   // The session's own load has logged the warnings.
@@ -107,7 +110,7 @@ Result<ReflectionCaptures> bake_scene(Session& session, const Options& options, 
 }
 
 Status ensure_captures(Session& session, const Options& options, LogSink& log, const BakeProgress& progress) {
-  const IndirectSource light = indirect_light(session);
+  const IndirectSource light = chosen_light(session);
   const bool wanted =
       wants_captures(session) || (light == IndirectSource::probes && session.world.view<const CubeProbe>().size() > 0);
   // A scene that demands no captures may have kept ones with diffuse light (bake --probes). They are read whatever
