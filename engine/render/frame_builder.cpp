@@ -48,8 +48,9 @@ bool FrameBuilder::has_surfaces(std::span<const Draw> draws, const SurfacePass& 
 }
 
 Status FrameBuilder::draw_surfaces(PassContext& context, std::span<const Draw> draws, const SurfacePass& pass,
-                                   std::span<const gpu::Binding> bindings) {
+                                   std::span<const gpu::Binding> bindings, BufferRef cluster_commands) {
   gpu::CommandList& commands = context.commands();
+  const gpu::BufferHandle arguments = cluster_commands ? context.buffer(cluster_commands) : gpu::BufferHandle{};
   const Deformed* deformed = shared_.find<Deformed>();
   commands.bind_indices(scene_.indices(), 0);
   const SurfaceVariant* bound_variant = nullptr;
@@ -65,7 +66,9 @@ Status FrameBuilder::draw_surfaces(PassContext& context, std::span<const Draw> d
     }
     const GpuPrimitive& primitive = *draw.primitive;
     const GpuMaterial& material = scene_.material(primitive.material);
-    if (bound_material != &material) commands.bind_set(1, material.set);
+    // A pass that only draws depth has no fragment shader, which alone reads materials.
+    const bool has_material = !pass.fragment.words.empty();
+    if (has_material && bound_material != &material) commands.bind_set(1, material.set);
     bound_material = &material;
     const std::uint64_t first = primitive.first_vertex;
     if (draw.deform == kNone) {
@@ -83,7 +86,12 @@ Status FrameBuilder::draw_surfaces(PassContext& context, std::span<const Draw> d
     } else {
       commands.push(draw.constants);
     }
-    commands.draw_indexed(draw.index_count, 1, draw.first_index, 0, 0);
+    if (arguments) {
+      commands.draw_indexed_indirect(arguments, draw.first_cluster * sizeof(shaders::ClusterCommand),
+                                     draw.cluster_count);
+    } else {
+      commands.draw_indexed(draw.index_count, 1, draw.first_index, 0, 0);
+    }
   }
   return {};
 }

@@ -155,9 +155,10 @@ class FrameBuilder {
   [[nodiscard]] gpu::Binding view_binding() const { return {0, view_range_}; }
   void upload_view_constants(std::uint32_t visualizer_code);
 
-  /// Draws a list with one surface pass, inside a pass that is rendering. `bindings`: those of set 0.
+  /// Draws a list with one surface pass, inside a pass that is rendering. `bindings`: those of set 0. cluster_commands:
+  /// as in DrawPass::surfaces.
   [[nodiscard]] Status draw_surfaces(PassContext& context, std::span<const Draw> draws, const SurfacePass& pass,
-                                     std::span<const gpu::Binding> bindings);
+                                     std::span<const gpu::Binding> bindings, BufferRef cluster_commands = {});
   /// Compiles the pipelines of a list before recording, so that errors surface in declaration.
   [[nodiscard]] Status prepare_surfaces(std::span<const Draw> draws, const SurfacePass& pass);
   /// Whether the pipelines of a list are ready. Missing ones are compiled in the background. For passes that have a

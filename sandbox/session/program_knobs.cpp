@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "engine/render/draws/culling.h"
 #include "modules/lighting/outputs.h"
 #include "modules/reflections/module.h"
 #include "modules/shadows/outputs.h"
@@ -37,6 +38,7 @@ std::vector<float> heat_ranges(const KnobRegistry& knobs) {
 KnobRegistry all_knobs(const ModuleList& modules) {
   KnobRegistry knobs;
   for (const auto& module : modules) module->knobs(knobs);
+  add_knobs(knobs, "scene", kCulling);
   add_program_knobs(knobs);
   return knobs;
 }

@@ -61,7 +61,7 @@ void record_draws(FrameBuilder& frame, const Recording& recording, PassContext& 
         break;
       case StepKind::surfaces:
         if (const Status drawn = frame.draw_surfaces(context, step.draws, recording.surface_passes[step.surface_pass],
-                                                     bindings_of(recording, step, context, storage));
+                                                     bindings_of(recording, step, context, storage), step.arguments);
             !drawn.ok())
           context.fail(drawn.error());
         break;
@@ -173,14 +173,16 @@ void DrawPass::draw_indexed_indirect(BufferRef indices, BufferRef arguments, std
   step.counts[0] = draws;
 }
 
-void DrawPass::surfaces(std::span<const Draw> draws) {
+void DrawPass::surfaces(std::span<const Draw> draws, BufferRef commands) {
   if (!has_program() || recording().failed) return;
   GLOAM_ASSERT(!recording().surface_passes.empty(), sentence("", "no surface pass was chosen"));
   if (const Status made = frame().prepare_surfaces(draws, recording().surface_passes.back()); !made.ok())
     return fail(made.error());
   frame().read_vertices(graph_pass(), recording().surface_passes.back().motion);
+  if (commands) graph_pass().read(commands, gpu::Access::indirect_read);
   Step& step = add_step(StepKind::surfaces);
   step.draws = draws;
+  step.arguments = commands;
   step.surface_pass = recording().surface_passes.size() - 1;
 }
 

@@ -59,7 +59,8 @@ class DrawPass : public ShaderPass {
   /// CommandList::draw_indexed_indirect. offset: bytes.
   void draw_indexed_indirect(BufferRef indices, BufferRef arguments, std::uint64_t offset, std::uint32_t draws);
   /// Draws meshes. `draws` must live until the frame is submitted, as those of FrameBuilder::draws().
-  void surfaces(std::span<const Draw> draws);
+  /// commands: shaders::ClusterCommand for each of ViewDraws::clusters, in place of the indices of `draws`; null: none.
+  void surfaces(std::span<const Draw> draws, BufferRef commands = {});
 
  private:
   [[nodiscard]] bool choose_pipeline();

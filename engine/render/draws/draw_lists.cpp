@@ -161,10 +161,21 @@ class InstanceDrawer {
     return draw;
   }
 
+  [[nodiscard]] bool is_blended(const GpuPrimitive& primitive) const {
+    return scene_.material(primitive.material).alpha_mode == AlphaMode::blend;
+  }
+
   void add(const RenderView& view, Draw draw, const Aabb& relative_bounds, ViewDraws& draws) const {
     draw.depth_m = nearest_depth(view, relative_bounds);
-    const bool blended = scene_.material(draw.primitive->material).alpha_mode == AlphaMode::blend;
-    (blended ? draws.blended : draws.solid).push_back(draw);
+    (is_blended(*draw.primitive) ? draws.blended : draws.solid).push_back(draw);
+  }
+
+  /// Lengthens the draw by a cluster, whose first triangle comes after its last one.
+  void lengthen(Draw& draw, const shaders::DrawCluster& cluster, ViewDraws& draws) const {
+    draw.index_count += cluster.index_count;
+    if (is_blended(*draw.primitive)) return;
+    if (draw.cluster_count++ == 0) draw.first_cluster = static_cast<std::uint32_t>(draws.clusters.size());
+    draws.clusters.push_back(cluster);
   }
 
   void draw_rigid(const Instance& instance, const GpuPrimitive& primitive, FrameDraws& lists) const {
@@ -187,15 +198,15 @@ class InstanceDrawer {
     Draw draw = start(view, instance.entity, primitive, constants, (constants.flags & GLOAM_DRAW_MIRRORED) != 0);
     draw.bounds = whole;
     for (const Cluster& cluster : primitive.clusters) {
-      const bool visible = primitive.clusters.size() == 1 || may_see(view, transformed(cluster.bounds, matrix));
-      if (!visible) continue;
-      if (draw.index_count > 0 && draw.first_index + draw.index_count == primitive.first_index + cluster.first_index) {
-        draw.index_count += cluster.index_count;
-        continue;
+      const Aabb bounds = primitive.clusters.size() == 1 ? whole : transformed(cluster.bounds, matrix);
+      if (primitive.clusters.size() > 1 && !may_see(view, bounds)) continue;
+      const std::uint32_t first = primitive.first_index + cluster.first_index;
+      if (draw.index_count == 0 || draw.first_index + draw.index_count != first) {
+        if (draw.index_count > 0) add(view, draw, whole, draws);
+        draw.first_index = first;
+        draw.index_count = draw.cluster_count = 0;
       }
-      if (draw.index_count > 0) add(view, draw, whole, draws);
-      draw.first_index = primitive.first_index + cluster.first_index;
-      draw.index_count = cluster.index_count;
+      lengthen(draw, {bounds.min, first, bounds.max, cluster.index_count}, draws);
     }
     if (draw.index_count > 0) add(view, draw, whole, draws);
   }
@@ -227,9 +238,9 @@ class InstanceDrawer {
       deformed = true;
       Draw draw = start(view, instance.entity, primitive, constants, flipped);
       draw.first_index = primitive.first_index;
-      draw.index_count = primitive.index_count;
       draw.deform = deform;
       if (box.known()) draw.bounds = bounds;
+      lengthen(draw, {draw.bounds.min, draw.first_index, draw.bounds.max, primitive.index_count}, lists.views[v]);
       add(view, draw, bounds, lists.views[v]);
     }
     if (deformed) lists.deforms.push_back(deform_job(instance, primitive, skinned, morphed));
@@ -263,6 +274,8 @@ void append(FrameDraws& all, FrameDraws& part) {
     for (std::vector<Draw>* draws : {&from.solid, &from.blended})
       for (Draw& draw : *draws)
         if (draw.deform != kNone) draw.deform += shift;
+    for (Draw& draw : from.solid) draw.first_cluster += static_cast<std::uint32_t>(to.clusters.size());
+    to.clusters.insert(to.clusters.end(), from.clusters.begin(), from.clusters.end());
     to.solid.insert(to.solid.end(), from.solid.begin(), from.solid.end());
     to.blended.insert(to.blended.end(), from.blended.begin(), from.blended.end());
     to.culled_instances += from.culled_instances;

@@ -13,6 +13,7 @@
 #include "engine/render/scene/draw_pipelines.h"
 #include "engine/render/scene/gpu_scene.h"
 #include "engine/render/view.h"
+#include "shaders/render/culling/culling_shared.h"
 #include "shaders/render/deform_shared.h"
 #include "shaders/render/draw_shared.h"
 
@@ -26,9 +27,11 @@ struct Draw {
   shaders::DrawConstants constants{};
   std::uint32_t first_index = 0;
   std::uint32_t index_count = 0;
-  std::uint32_t deform = kNone;  ///< index into FrameDraws::deforms, or kNone for rest vertices
-  float depth_m = 0.0f;          ///< nearest view depth of the bounds
-  Aabb bounds;                   ///< of the drawn vertices, relative to the view's position; empty: unknown
+  std::uint32_t deform = kNone;     ///< index into FrameDraws::deforms, or kNone for rest vertices
+  float depth_m = 0.0f;             ///< nearest view depth of the bounds
+  Aabb bounds;                      ///< of the drawn vertices, relative to the view's position; empty: unknown
+  std::uint32_t first_cluster = 0;  ///< of a solid draw: its part of ViewDraws::clusters
+  std::uint32_t cluster_count = 0;
 };
 
 /// A primitive of an instance whose vertices the GPU morphs or skins in this frame, if anything uses them.
@@ -44,6 +47,8 @@ struct DeformJob {
 struct ViewDraws {
   std::vector<Draw> solid;
   std::vector<Draw> blended;
+  /// Of solid draws. The clusters of a draw are consecutive triangles, in order.
+  std::vector<shaders::DrawCluster> clusters;
   std::uint32_t culled_instances = 0;
 };
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "engine/render/draws/culling.h"
 #include "engine/scene/systems.h"
 
 namespace gloam {
@@ -19,6 +20,7 @@ RendererParts::RendererParts(RendererOptions given)
       views(*options.device) {
   add_scene_systems(schedule);
   modules.add_to(knobs.set, schedule);
+  add_knobs(knobs.set, "scene", kCulling);
 }
 
 RendererParts::~RendererParts() {

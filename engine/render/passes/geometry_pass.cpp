@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
+#include <optional>
+
 #include "engine/render/declare/compute_pass.h"
 #include "engine/render/declare/draw_pass.h"
+#include "engine/render/passes/culling_passes.h"
 #include "engine/render/passes/renderer_passes.h"
 #include "engine/render/scene/material_packing.h"
 #include "shaders/render/shaders.h"
@@ -24,6 +27,8 @@ void add_geometry_pass(FrameBuilder& frame, const HostGeometry* host, bool drawn
     frame.put(outputs);
     return;
   }
+  std::optional<CulledView> culled;
+  if (culls_hidden(frame)) culled = add_culling_passes(frame);
   DrawPass pass(frame, "geometry");
   // Depth alone marks sky; colours are cleared only so that every texel is defined.
   const auto target = [&](const char* name, gpu::Format format) {
@@ -34,10 +39,16 @@ void add_geometry_pass(FrameBuilder& frame, const HostGeometry* host, bool drawn
   outputs.material = target("material", surfaces.color_formats[2]);
   outputs.emissive = target("emissive", surfaces.color_formats[3]);
   if (with_motion) outputs.motion = target("motion", surfaces.color_formats[4]);
-  outputs.depth = pass.depth_target(create_view_image(frame, "depth", kGeometryDepthFormat), gpu::LoadOp::clear);
+  outputs.depth = culled
+                      ? pass.depth_target(culled->depth, gpu::LoadOp::load)
+                      : pass.depth_target(create_view_image(frame, "depth", kGeometryDepthFormat), gpu::LoadOp::clear);
   pass.use(surfaces);
   bind_motion(pass, frame.view());
-  pass.surfaces(frame.draws().solid);
+  if (culled) {
+    pass.surfaces(frame.draws().solid, culled->commands);
+  } else {
+    pass.surfaces(frame.draws().solid);
+  }
   frame.put(outputs);
 }
 

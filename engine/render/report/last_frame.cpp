@@ -6,6 +6,10 @@
 #include <string_view>
 #include <utility>
 
+#include "engine/render/draws/occluders.h"
+#include "engine/render/passes/culling_passes.h"
+#include "shaders/render/culling/culling_shared.h"
+
 namespace gloam {
 namespace {
 
@@ -27,6 +31,11 @@ ModuleState state_of(std::string_view name, const gpu::Device& device, const std
   return state;
 }
 
+void count_culled(const shaders::CullingCounters& culled, CounterSink& sink) {
+  sink.count("scene.clusters_culled", culled.clusters);
+  sink.count("scene.triangles_culled", culled.triangles);
+}
+
 }  // namespace
 
 ViewCounters count_view(const ModuleSet& modules, const FrameBuilder& builder) {
@@ -34,6 +43,10 @@ ViewCounters count_view(const ModuleSet& modules, const FrameBuilder& builder) {
   MapSink sink(view.counters);
   sink.count("engine.draws", static_cast<double>(builder.draws().solid.size() + builder.draws().blended.size()));
   sink.count("engine.culled_primitives", builder.draws().culled_instances);
+  sink.count("scene.clusters", static_cast<double>(builder.draws().clusters.size()));
+  sink.count("scene.clusters_culled", 0.0);
+  sink.count("scene.triangles", solid_triangles(builder.draws()));
+  sink.count("scene.triangles_culled", 0.0);
   for (const Module* module : modules.taking_part()) module->counters(builder.world(), builder.view(), sink);
   return view;
 }
@@ -53,6 +66,8 @@ std::map<std::string, double> LastFrame::counters(const ModuleList& modules, con
   for (const ResultKey& key : counted_results_) {
     const std::optional<FrameResult> result = results.newest(key);
     if (!result) continue;
+    if (key.module == "engine" && key.name == kCullingResult)
+      count_culled(result->value<shaders::CullingCounters>(), sink);
     for (const auto& module : modules)
       if (module->name() == key.module) module->result_counters(key.name, *result, sink);
   }
