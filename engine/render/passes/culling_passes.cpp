@@ -21,9 +21,10 @@ namespace {
 
 /// Views of fewer triangles are drawn faster without a search.
 constexpr std::uint32_t kFewestTriangles = 65536;
-/// Share of a view's triangles that may be drawn twice, as occluders. One in …
+/// One in this many of a view's triangles may be drawn twice, as an occluder; kLeastOccluders, if
+/// that is more.
 constexpr std::uint32_t kOccluderShare = 16;
-constexpr std::uint32_t kLeastOccluders = 256;  ///< triangles
+constexpr std::uint32_t kLeastOccluders = 2048;
 
 /// The frame's occluders, which live until it is recorded.
 struct OccluderDraws {
@@ -72,12 +73,16 @@ DepthLevels add_level_passes(FrameBuilder& frame, ImageRef depth) {
   return levels;
 }
 
-BufferRef zeroed_counters(FrameBuilder& frame) {
+BufferRef create_buffer(FrameBuilder& frame, const char* name, std::uint64_t bytes) {
   gpu::BufferDesc desc;
-  desc.name = "culling_counters";
+  desc.name = name;
   desc.module = frame.module();
-  desc.size = sizeof(shaders::CullingCounters);
-  const BufferRef buffer = frame.graph().create_buffer(std::move(desc));
+  desc.size = bytes;
+  return frame.graph().create_buffer(std::move(desc));
+}
+
+BufferRef zeroed_counters(FrameBuilder& frame) {
+  const BufferRef buffer = create_buffer(frame, "culling_counters", sizeof(shaders::CullingCounters));
   PassBuilder pass = frame.graph().add_pass("culling_start", frame.module());
   const BufferRef zeroed = pass.write(buffer, gpu::Access::transfer_write);
   pass.execute([zeroed](PassContext& context) {
@@ -86,24 +91,38 @@ BufferRef zeroed_counters(FrameBuilder& frame) {
   return zeroed;
 }
 
+/// Finds the visible clusters, and counts the others. Returns a word for each cluster: 1 if it is visible.
 BufferRef add_cull_pass(FrameBuilder& frame, const DepthLevels& levels) {
   const std::vector<shaders::DrawCluster>& clusters = frame.draws().clusters;
-  gpu::BufferDesc desc;
-  desc.name = "cluster_commands";
-  desc.module = frame.module();
-  desc.size = clusters.size() * sizeof(shaders::ClusterCommand);
-  BufferRef commands = frame.graph().create_buffer(std::move(desc));
   BufferRef counters = zeroed_counters(frame);
+  BufferRef visible = create_buffer(frame, "visible_clusters", clusters.size() * sizeof(std::uint32_t));
   ComputePass pass(frame, "cull_clusters", shaders::render::cull_clusters_comp);
   pass.items<shaders::DrawCluster>("clusters", clusters);
   for (std::size_t level = 0; level < levels.size(); ++level)
     pass.read("depth_" + std::to_string(level), levels[level]);
-  commands = pass.write("commands", commands);
+  visible = pass.write("visible", visible);
   counters = pass.write("counters", counters);
   const auto count = static_cast<std::uint32_t>(clusters.size());
   pass.push(count);
   pass.dispatch_over(count);
   frame.keep_result("engine", std::string(kCullingResult), counters);
+  return visible;
+}
+
+BufferRef add_merge_pass(FrameBuilder& frame, BufferRef visible) {
+  const ViewDraws& draws = frame.draws();
+  std::vector<std::uint32_t> starts(draws.clusters.size(), 0);
+  for (const Draw& draw : draws.solid) starts[draw.first_cluster] = 1;
+  BufferRef commands =
+      create_buffer(frame, "cluster_commands", draws.clusters.size() * sizeof(shaders::ClusterCommand));
+  ComputePass pass(frame, "merge_commands", shaders::render::merge_commands_comp);
+  pass.items<shaders::DrawCluster>("clusters", draws.clusters);
+  pass.items<std::uint32_t>("starts", starts);
+  pass.read("visible", visible);
+  commands = pass.write("commands", commands);
+  const auto count = static_cast<std::uint32_t>(draws.clusters.size());
+  pass.push(count);
+  pass.dispatch_over(count);
   return commands;
 }
 
@@ -125,7 +144,7 @@ bool culls_hidden(const FrameBuilder& frame) {
 CulledView add_culling_passes(FrameBuilder& frame) {
   CulledView view;
   view.depth = add_occluder_pass(frame);
-  view.commands = add_cull_pass(frame, add_level_passes(frame, view.depth));
+  view.commands = add_merge_pass(frame, add_cull_pass(frame, add_level_passes(frame, view.depth)));
   return view;
 }
 

@@ -5,9 +5,9 @@
 #include "shaders/render/culling/culling_shared.h"
 #include "shaders/render/view_shared.h"
 
-// Writes the draw command of each cluster: without an instance if the cluster's box is behind the occluders at all
-// pixels that it may cover. Only clusters without a visible pixel are hidden. Margins cover what vertex transforms,
-// the rasteriser's grid and its interpolation of depth may add:
+// Finds the clusters that may have a visible pixel: all but those whose box is behind the occluders at all pixels that
+// it may cover. Only clusters without a visible pixel are hidden. Margins cover what vertex transforms, the
+// rasteriser's grid and its interpolation of depth may add:
 // - a pixel on each side of the box's rectangle;
 // - kDepthMargin of the depth and kRangeMargin of the box's range of depths. The interpolated depth of a sliver may be
 //   outside of its vertices' depths by a share of their range.
@@ -22,7 +22,7 @@ layout(set = 0, binding = 3) uniform sampler2D depth_1;
 layout(set = 0, binding = 4) uniform sampler2D depth_2;
 layout(set = 0, binding = 5) uniform sampler2D depth_3;
 layout(set = 0, binding = 6) uniform sampler2D depth_4;
-layout(set = 0, binding = 7, scalar) writeonly buffer Commands { ClusterCommand commands[]; };
+layout(set = 0, binding = 7, scalar) writeonly buffer Visible { uint visible[]; };  // 0 or 1
 layout(set = 0, binding = 8, scalar) buffer Counters { CullingCounters counters; };
 layout(push_constant, scalar) uniform Push { uint cluster_count; };
 
@@ -85,7 +85,7 @@ void main() {
   if (index >= cluster_count) return;
   DrawCluster cluster = clusters[index];
   bool hidden = is_hidden(cluster);
-  commands[index] = ClusterCommand(cluster.index_count, hidden ? 0u : 1u, cluster.first_index, 0, 0u);
+  visible[index] = hidden ? 0u : 1u;
   if (!hidden) return;
   atomicAdd(counters.clusters, 1u);
   atomicAdd(counters.triangles, cluster.index_count / 3u);
