@@ -14,6 +14,10 @@
 namespace gloam {
 namespace {
 
+/// Clusters of one draw share an item of ViewDraws::clusters up to this number of indices. A command costs a software
+/// device about as much as 50 triangles.
+constexpr std::size_t kMostSharedIndices = 3 * 2 * kClusterTriangles;
+
 struct Instance {
   Entity entity;
   std::uint32_t mesh = 0;
@@ -170,12 +174,22 @@ class InstanceDrawer {
     (is_blended(*draw.primitive) ? draws.blended : draws.solid).push_back(draw);
   }
 
-  /// Lengthens the draw by a cluster, whose first triangle comes after its last one.
-  void lengthen(Draw& draw, const shaders::DrawCluster& cluster, ViewDraws& draws) const {
-    draw.index_count += cluster.index_count;
+  /// Lengthens the draw by triangles that come after its last one. Neighbours share an item of ViewDraws::clusters.
+  void lengthen(Draw& draw, std::uint32_t first_index, std::uint32_t index_count, const Aabb& bounds,
+                ViewDraws& draws) const {
+    draw.index_count += index_count;
     if (is_blended(*draw.primitive)) return;
+    if (draw.cluster_count > 0) {
+      shaders::DrawCluster& last = draws.clusters.back();
+      if (last.index_count + index_count <= kMostSharedIndices) {
+        last.index_count += index_count;
+        last.low = glm::min(last.low, bounds.min);
+        last.high = glm::max(last.high, bounds.max);
+        return;
+      }
+    }
     if (draw.cluster_count++ == 0) draw.first_cluster = static_cast<std::uint32_t>(draws.clusters.size());
-    draws.clusters.push_back(cluster);
+    draws.clusters.push_back({bounds.min, first_index, bounds.max, index_count});
   }
 
   void draw_rigid(const Instance& instance, const GpuPrimitive& primitive, FrameDraws& lists) const {
@@ -206,7 +220,7 @@ class InstanceDrawer {
         draw.first_index = first;
         draw.index_count = draw.cluster_count = 0;
       }
-      lengthen(draw, {bounds.min, first, bounds.max, cluster.index_count}, draws);
+      lengthen(draw, first, cluster.index_count, bounds, draws);
     }
     if (draw.index_count > 0) add(view, draw, whole, draws);
   }
@@ -240,7 +254,7 @@ class InstanceDrawer {
       draw.first_index = primitive.first_index;
       draw.deform = deform;
       if (box.known()) draw.bounds = bounds;
-      lengthen(draw, {draw.bounds.min, draw.first_index, draw.bounds.max, primitive.index_count}, lists.views[v]);
+      lengthen(draw, draw.first_index, primitive.index_count, draw.bounds, lists.views[v]);
       add(view, draw, bounds, lists.views[v]);
     }
     if (deformed) lists.deforms.push_back(deform_job(instance, primitive, skinned, morphed));

@@ -20,7 +20,7 @@ namespace gloam {
 namespace {
 
 /// Views of fewer triangles are drawn faster without a search.
-constexpr std::uint32_t kFewestTriangles = 65536;
+constexpr std::uint32_t kFewestTriangles = 131072;
 /// One in this many of a view's triangles may be drawn twice, as an occluder; kLeastOccluders, if
 /// that is more.
 constexpr std::uint32_t kOccluderShare = 16;

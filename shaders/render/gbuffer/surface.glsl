@@ -29,6 +29,9 @@ layout(location = 5) out vec3 out_clip;
 layout(location = 6) out vec3 out_previous_clip;
 #endif
 
+// Occluders are drawn by another pipeline before the geometry pass, which must give the same depths.
+invariant gl_Position;
+
 layout(set = 0, binding = 0, scalar) uniform ViewBlock { ViewConstants view; };
 #ifdef GLOAM_MOTION
 layout(set = 0, binding = 1, scalar) uniform MotionBlock { MotionConstants motion; };
