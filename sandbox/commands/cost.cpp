@@ -9,6 +9,7 @@
 
 #include "engine/core/processor_time.h"
 #include "engine/core/text/formatted.h"
+#include "engine/render/draws/culling.h"
 #include "modules/accuracy/module.h"
 #include "modules/accuracy/outputs.h"
 #include "modules/module_list/module_list.h"
@@ -114,10 +115,11 @@ class ConsoleProgress final : public CostProgress {
   WorkTimes phases_;
 };
 
-/// All that a ledger can vary: the modules' knobs and the resolution scale.
+/// All that a ledger can vary: the modules' knobs, the engine's, and the resolution scale.
 KnobRegistry measurable_knobs() {
   KnobRegistry registry;
   for (const auto& module : make_all_modules()) module->knobs(registry);
+  add_knobs(registry, "scene", kCulling);
   add_knobs(registry, "views", kViewScale);
   return registry;
 }

@@ -50,7 +50,7 @@ ROOMS = {
                           ("components", "baked_light", "bake", "knobs", "frame")),
     "modules/depth_of_field": (("lens", "levels", "tiles", "sprites", "blur", "compose", "reference", "debug"), ("components", "knobs", "frame", "dof_passes")),
     "modules/glare": (("reference",), ("components", "knobs", "levels", "view_glare", "glare_passes")),
-    "shaders/render": (("sort", "gbuffer", "kernel_check"), None),
+    "shaders/render": (("sort", "culling", "gbuffer", "kernel_check"), None),
     "shaders/lights": (("lists", "debug"), None),
     "shaders/lighting": (("opaque", "blended", "antialiasing", "display", "kernel_check"), None),
     "shaders/depth_of_field": (("tiles", "sprites", "blur", "compose", "debug"), None),

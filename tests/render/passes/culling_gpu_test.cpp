@@ -85,6 +85,35 @@ class HiddenClusters : public test::DrawingTest {
   double hidden = 0.0, in_view = 0.0;
 };
 
+TEST_F(HiddenClusters, are_not_drawn_behind_a_wall_but_behind_holes_and_beside_it) {
+  Material material;
+  material.double_sided = true;
+  Material cut_out = material;
+  cut_out.alpha_mode = AlphaMode::mask;
+  const dmat4 wall_at = glm::translate(dmat4(1.0), dvec3(0.0, 0.0, -5.0));
+  const std::uint32_t wall = stage->scene.mesh(test::quad(10.0f, stage->scene.material(material)));
+  const std::uint32_t fence = stage->scene.mesh(test::quad(10.0f, stage->scene.material(cut_out)));
+  const std::uint32_t ball = stage->scene.mesh(test::round_ball(0.5f, 12, 8));
+  const Entity before = stage->scene.draw(wall, wall_at);
+  for (int i = 0; i < 9; ++i) stage->scene.draw(ball, glm::translate(dmat4(1.0), dvec3(i % 3 - 1, i / 3 - 1, -9.0)));
+  const auto culled = [&](const std::string& what) {
+    hidden = 0.0;
+    expect_same_with_culling(what);
+    return hidden;
+  };
+  EXPECT_EQ(culled("a wall"), 9.0);
+  stage->world.get<MeshInstance>(before).mesh = fence;
+  EXPECT_EQ(culled("a surface with holes"), 0.0);
+  stage->world.get<MeshInstance>(before).mesh = wall;
+  stage->world.get<WorldTransform>(before).matrix = glm::translate(wall_at, dvec3(-10.0, 0.0, 0.0));
+  EXPECT_EQ(culled("the left half is hidden"), 3.0);
+  stage->world.get<WorldTransform>(before).matrix = glm::translate(wall_at, dvec3(0.0, 0.0, -10.0));
+  EXPECT_EQ(culled("the wall is behind"), 0.0);
+  stage->world.get<WorldTransform>(before).matrix = wall_at;
+  stage->settings.mirror = MirrorPlane{.normal = dvec3(0.0, 0.0, 1.0), .offset = -12.0};
+  EXPECT_EQ(culled("a mirror's plane may cut the wall off"), 0.0);
+}
+
 TEST_F(HiddenClusters, do_not_change_pictures_of_random_scenes) {
   Random random;
   struct Place {
@@ -96,6 +125,7 @@ TEST_F(HiddenClusters, do_not_change_pictures_of_random_scenes) {
                              Place{"of kilometres", dvec3(0.0), 1e4}, Place{"of millimetres", dvec3(0.0), 1e-2}}) {
     stage = std::make_unique<test::Stage>();
     fill(random, place.middle, place.reach);
+    if (place.reach == 10.0) test::fill_small_scene(stage->world);  // skinned, morphed and blended surfaces
     for (int i = 0; i < 12; ++i) {
       const auto at = [&] {
         return place.middle +
