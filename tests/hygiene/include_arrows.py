@@ -65,7 +65,7 @@ ROOMS = {
     "engine/scene/gltf": (("parsing", "validation", "buffers", "assets", "entities"), ("document", "place")),
     "engine/render": (("knobs", "governor", "camera", "pipelines", "packing", "uploads", "scene", "draws", "declare", "resources", "sort",
                        "passes", "readback", "reference", "kernel_check", "worlds", "modules_in_use", "views", "report", "frame", "redraw"),
-                      ("view", "outputs", "frame_builder", "host_geometry", "module", "view_request", "frame_report",
+                      ("view", "outputs", "frame_builder", "settled_result", "host_geometry", "module", "view_request", "frame_report",
                        "renderer_options", "board")),
     "sandbox/output": (("pictures",), ("file_io", "json_text")),
     "sandbox/scenes": (("construction", "street", "dusk", "lamps", "meadow", "wet_street"), ()),

@@ -3,6 +3,7 @@
 #include "engine/render/passes/culling_passes.h"
 
 #include <algorithm>
+#include <any>
 #include <array>
 #include <bit>
 #include <string>
@@ -13,6 +14,7 @@
 #include "engine/render/declare/draw_pass.h"
 #include "engine/render/draws/culling.h"
 #include "engine/render/draws/occluders.h"
+#include "engine/render/settled_result.h"
 #include "shaders/render/culling/culling_shared.h"
 #include "shaders/render/shaders.h"
 
@@ -21,6 +23,10 @@ namespace {
 
 /// Views of fewer triangles are drawn faster without a search.
 constexpr std::uint32_t kFewestTriangles = 131072;
+/// Where less than one in this many triangles was hidden, the search costs more than it saves. It is tried again in one
+/// of kTrialFrames frames, and after a camera cut.
+constexpr std::uint32_t kLeastHiddenShare = 8;
+constexpr std::uint64_t kTrialFrames = 32;
 /// One in this many of a view's triangles may be drawn twice, as an occluder; kLeastOccluders, if
 /// that is more.
 constexpr std::uint32_t kOccluderShare = 16;
@@ -105,7 +111,7 @@ BufferRef add_cull_pass(FrameBuilder& frame, const DepthLevels& levels) {
   const auto count = static_cast<std::uint32_t>(clusters.size());
   pass.push(count);
   pass.dispatch_over(count);
-  frame.keep_result("engine", std::string(kCullingResult), counters);
+  frame.keep_result("engine", std::string(kCullingResult), counters, solid_triangles(frame.draws()));
   return visible;
 }
 
@@ -126,6 +132,14 @@ BufferRef add_merge_pass(FrameBuilder& frame, BufferRef visible) {
   return commands;
 }
 
+/// Whether the search hid enough triangles when it was last made.
+bool has_paid(const FrameBuilder& frame) {
+  const FrameResult* last = settled_result(frame, "engine", kCullingResult);
+  if (last == nullptr || frame.view().camera_cut() || frame.view().frame % kTrialFrames == 0) return true;
+  const std::uint32_t triangles = std::any_cast<std::uint32_t>(last->note);
+  return last->value<shaders::CullingCounters>().triangles >= triangles / kLeastHiddenShare;
+}
+
 }  // namespace
 
 bool culls_hidden(const FrameBuilder& frame) {
@@ -136,7 +150,7 @@ bool culls_hidden(const FrameBuilder& frame) {
     case Culling::occlusion:
       return true;
     case Culling::automatic:
-      return solid_triangles(frame.draws()) >= kFewestTriangles;
+      return solid_triangles(frame.draws()) >= kFewestTriangles && has_paid(frame);
   }
   return false;
 }

@@ -114,6 +114,28 @@ TEST_F(HiddenClusters, are_not_drawn_behind_a_wall_but_behind_holes_and_beside_i
   EXPECT_EQ(culled("a mirror's plane may cut the wall off"), 0.0);
 }
 
+TEST_F(HiddenClusters, are_searched_for_automatically_where_that_pays) {
+  const std::uint32_t ball = stage->scene.mesh(test::round_ball(0.3f, 48, 40));  // 3,840 triangles
+  for (int i = 0; i < 40; ++i)
+    stage->scene.draw(ball, glm::translate(dmat4(1.0), dvec3(i % 8 - 3.5, i / 8 - 2.0, -9.0)));
+  const auto hidden_after = [&](int frames) {
+    for (int i = 0; i < frames; ++i) {
+      stage->settings.camera_cut = i == 0;
+      stage->render();
+    }
+    EXPECT_TRUE(stage->renderer->wait().ok());
+    bool searched = false;
+    for (const PassTime& pass : stage->renderer->report().passes) searched = searched || pass.name == "cull_clusters";
+    return searched ? stage->renderer->report().counters.at("scene.clusters_culled") : -1.0;
+  };
+  EXPECT_EQ(hidden_after(1), 0.0) << "the first frame tries";
+  EXPECT_EQ(hidden_after(8), -1.0) << "nothing is hidden: no search";
+  stage->scene.draw(stage->scene.mesh(test::quad(10.0f)), glm::translate(dmat4(1.0), dvec3(0.0, 0.0, -5.0)));
+  EXPECT_GT(hidden_after(8), 39.0);
+  stage->renderer->knobs().set(kCulling, Culling::frustum);
+  EXPECT_EQ(hidden_after(4), -1.0);
+}
+
 TEST_F(HiddenClusters, do_not_change_pictures_of_random_scenes) {
   Random random;
   struct Place {
