@@ -20,7 +20,6 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 class DofLayersTest : public DofChainTest {
  protected:
   static constexpr std::uint32_t kWidth = 128, kHeight = 96;
-  static constexpr std::uint32_t kStripes = 64;  // height of pictures whose rows are equal
 
   /// Pixels [left, right) × [top, bottom).
   struct Area {
@@ -156,8 +155,8 @@ TEST_P(DofLayersTest, near_objects_are_as_solid_as_through_a_lens) {
   for (const float circle : {2.0f, 4.5f, 7.0f, 10.0f, 13.0f})
     for (const auto& [left, right] : {std::pair{50u, 78u}, {60u, 72u}, {62u, 66u}})
       for (const auto& [object, ground] : {std::pair{1.0f, 0.1f}, {0.1f, 1.0f}}) {
-        DofInput in(kWidth, kStripes, 0.0f, vec4(ground));
-        fill(in, {left, 0, right, kStripes}, -circle, vec4(object));
+        DofInput in(kWidth, kHeight, 0.0f, vec4(ground));
+        fill(in, {left, 0, right, kHeight}, -circle, vec4(object));
         each_kernel(in, [&](const DofResult& result, const DofInput& drawn, const std::string& name) {
           // Layers of half the size are softer than circles of two pixels.
           if (circle < 4.0f && !drawn.knobs.full_resolution) return;
@@ -165,8 +164,7 @@ TEST_P(DofLayersTest, near_objects_are_as_solid_as_through_a_lens) {
                                     ", circle " + std::to_string(circle);
           double covered = 0.0, whole = 0.0;
           for (std::uint32_t x = 0; x < kWidth; ++x) {
-            const double alpha =
-                static_cast<double>((result.light[drawn.at(x, kStripes / 2)].x - ground) / (object - ground));
+            const double alpha = static_cast<double>((result.light[drawn.at(x, 48)].x - ground) / (object - ground));
             const double expected = aperture_beyond(drawn.bokeh, left - (x + 0.5), double{circle}) -
                                     aperture_beyond(drawn.bokeh, right - (x + 0.5), double{circle});
             EXPECT_NEAR(alpha, expected, 0.05) << which << " " << x;
@@ -184,14 +182,13 @@ TEST_P(DofLayersTest, near_objects_show_a_ground_behind_them_that_is_before_the_
     for (const float behind : {0.7f, 2.0f, 3.0f})
       for (const auto& [left, right] : {std::pair{50u, 78u}, {60u, 68u}, {62u, 66u}})
         for (const auto& [object, ground] : {std::pair{1.0f, 0.1f}, {0.1f, 1.0f}}) {
-          DofInput in(kWidth, kStripes, -behind, vec4(ground));
-          fill(in, {left, 0, right, kStripes}, -circle, vec4(object));
+          DofInput in(kWidth, kHeight, -behind, vec4(ground));
+          fill(in, {left, 0, right, kHeight}, -circle, vec4(object));
           each_kernel(in, [&](const DofResult& result, const DofInput& drawn, const std::string& name) {
             const std::string which = name + ", " + std::to_string(right - left) + " wide, " + std::to_string(object) +
                                       ", circles " + std::to_string(circle) + " and " + std::to_string(behind);
             for (std::uint32_t x = 0; x < kWidth; ++x) {
-              const double alpha =
-                  static_cast<double>((result.light[drawn.at(x, kStripes / 2)].x - ground) / (object - ground));
+              const double alpha = static_cast<double>((result.light[drawn.at(x, 48)].x - ground) / (object - ground));
               const double expected = aperture_beyond(drawn.bokeh, left - (x + 0.5), double{circle}) -
                                       aperture_beyond(drawn.bokeh, right - (x + 0.5), double{circle});
               EXPECT_NEAR(alpha, expected, 0.08) << which << " " << x;
