@@ -141,11 +141,22 @@ PipelineList final_list_pipelines(const ShadingInputs& inputs, const ShadowsOutp
   return list;
 }
 
-bool final_lists_ready(const FrameServices& services, const ShadingInputs& inputs, const ShadowsOutputs& shadows) {
+/// Of frames that keep light.
+PipelineList reuse_pipelines(const ShadingInputs& inputs, const ShadowsOutputs& shadows) {
+  PipelineList list = {pipeline_of(tile_program(inputs, shadows), inputs)};
+  list_kept_light_pipelines(inputs, shadows, list);
+  return list;
+}
+
+bool keeps_light(const FrameBuilder& frame) { return frame.knobs().value(kLightReuse) != LightReuseKind::off; }
+
+bool final_lists_ready(const FrameBuilder& frame, const ShadingInputs& inputs, const ShadowsOutputs& shadows) {
+  const FrameServices& services = frame.services();
   if (services.wait_for_pipelines) return true;
   const bool ready = services.pipelines.request(final_list_pipelines(inputs, shadows), services.log);
   // A later frame may need the fallback although this one does not.
   static_cast<void>(services.pipelines.request({pipeline_of(fallback_program(inputs, shadows), inputs)}, services.log));
+  if (keeps_light(frame)) static_cast<void>(services.pipelines.request(reuse_pipelines(inputs, shadows), services.log));
   return ready;
 }
 
@@ -159,7 +170,7 @@ struct Variant {
 Variant choose_variant(FrameBuilder& frame, const ShadingInputs& inputs) {
   const FrameServices& services = frame.services();
   const ShadowsOutputs* shadows = frame.find<ShadowsOutputs>();
-  if (shadows != nullptr && shadows->final_lists && final_lists_ready(services, inputs, *shadows))
+  if (shadows != nullptr && shadows->final_lists && final_lists_ready(frame, inputs, *shadows))
     return {LocalLights::final_lists, shadows};
   const LocalLights best = best_source(inputs);
   if (services.wait_for_pipelines) return {best, shadows};
@@ -184,23 +195,12 @@ void draw_fallback_tiles(FrameBuilder& frame, DrawPass& pass, const ShadingInput
   pass.draw_indirect(lists.commands, lists.fallback_draw);
 }
 
-/// Of frames that keep light.
-PipelineList reuse_pipelines(const ShadingInputs& inputs, const ShadowsOutputs& shadows) {
-  PipelineList list = {pipeline_of(tile_program(inputs, shadows), inputs)};
-  list_kept_light_pipelines(inputs, shadows, list);
-  return list;
-}
-
 std::optional<KeptLight> kept_light(FrameBuilder& frame, const ShadingInputs& inputs, const Variant& variant,
                                     LightReuse& reuse) {
-  if (variant.source != LocalLights::final_lists || frame.knobs().value(kLightReuse) == LightReuseKind::off)
-    return std::nullopt;
-  const FrameServices& services = frame.services();
-  if (!services.wait_for_pipelines &&
-      !services.pipelines.request(reuse_pipelines(inputs, *variant.shadows), services.log))
-    return std::nullopt;
+  if (variant.source != LocalLights::final_lists || !keeps_light(frame)) return std::nullopt;
   auto kept = plan_kept_light(frame, inputs, *variant.shadows,
-                              shading_program(variant.source, inputs, variant.shadows).constants, reuse);
+                              shading_program(variant.source, inputs, variant.shadows).constants,
+                              reuse_pipelines(inputs, *variant.shadows), reuse);
   if (kept) add_lit_tiles_pass(frame, inputs, *variant.shadows, *kept);
   if (!frame.status().ok()) return std::nullopt;
   return kept;
@@ -248,7 +248,7 @@ void add_deferred_pass(FrameBuilder& frame, LightReuse& reuse) {
   pass.use(sky_program(inputs));
   pass.read_if_declared("environment", inputs.sky);
   pass.draw_triangle();
-  if (kept) lit.color = add_kept_light_copy(frame, *kept);
+  if (kept) lit.color = add_kept_light_copy(frame, *kept, lit.color);
 }
 
 }  // namespace gloam

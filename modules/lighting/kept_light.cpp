@@ -96,13 +96,14 @@ void LightReuse::release_view(ViewId view) {
 
 std::optional<KeptLight> plan_kept_light(FrameBuilder& frame, const ShadingInputs& inputs,
                                          const ShadowsOutputs& shadows, const gpu::SpecConstants& constants,
-                                         LightReuse& reuse) {
+                                         const PipelineList& pipelines, LightReuse& reuse) {
   if (!is_keepable(frame, inputs)) return std::nullopt;
   const RenderView& view = frame.view();
   const FrameServices& services = frame.services();
   KeptLight kept{.inputs = inputs_hash(frame, shadows, constants)};
   if (!reuse.may_keep(world_id(frame.world()), view.id, kept.inputs, services.device.frame_number()))
     return std::nullopt;
+  if (!services.wait_for_pipelines && !services.pipelines.request(pipelines, services.log)) return std::nullopt;
   gpu::ImageDesc image;
   image.name = "kept_light";
   image.module = "lighting";
@@ -169,11 +170,10 @@ void add_lit_tiles_pass(FrameBuilder& frame, const ShadingInputs& inputs, const 
   frame.keep_result("lighting", std::string(kLitTilesResult), kept.commands);
 }
 
-ImageRef add_kept_light_copy(FrameBuilder& frame, const KeptLight& kept) {
-  const ImageRef copy = create_view_image(frame, "lit", gpu::Format::rgba16_float);
-  PassBuilder pass = frame.graph().add_pass("copy_light", "lighting");
+ImageRef add_kept_light_copy(FrameBuilder& frame, const KeptLight& kept, ImageRef to) {
+  PassBuilder pass = frame.graph().add_pass("copy_kept_light", "lighting");
   pass.read(kept.light, gpu::Access::transfer_read);
-  const ImageRef written = pass.write(copy, gpu::Access::transfer_write);
+  const ImageRef written = pass.write(to, gpu::Access::transfer_write);
   pass.execute([from = kept.light, written](PassContext& context) {
     context.commands().blit(context.image(from), context.image(written));
   });

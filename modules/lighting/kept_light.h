@@ -55,17 +55,18 @@ class LightReuse {
   std::map<std::pair<std::uint64_t, std::uint32_t>, View> views_;
 };
 
-/// The view's kept light, if this frame can use it: with final lists, and the same inputs as in the last frame.
-/// constants: those of the lighting program.
+/// The view's kept light, if this frame can use it: it has final lists, the same inputs as the last frame, and the
+/// pipelines. constants: those of the lighting program.
 [[nodiscard]] std::optional<KeptLight> plan_kept_light(FrameBuilder& frame, const ShadingInputs& inputs,
                                                        const ShadowsOutputs& shadows,
-                                                       const gpu::SpecConstants& constants, LightReuse& reuse);
+                                                       const gpu::SpecConstants& constants,
+                                                       const PipelineList& pipelines, LightReuse& reuse);
 /// Finds the tiles that have changed; fills `kept.commands` and `kept.tiles`.
 void add_lit_tiles_pass(FrameBuilder& frame, const ShadingInputs& inputs, const ShadowsOutputs& shadows,
                         KeptLight& kept);
-/// A copy of the light, which later passes may change.
-[[nodiscard]] ImageRef add_kept_light_copy(FrameBuilder& frame, const KeptLight& kept);
-/// Appends the pipelines of frames that keep light.
+/// Copies the light into an image of its size and format, which later passes may change.
+[[nodiscard]] ImageRef add_kept_light_copy(FrameBuilder& frame, const KeptLight& kept, ImageRef to);
+/// Appends the pipelines that find changed tiles.
 void list_kept_light_pipelines(const ShadingInputs& inputs, const ShadowsOutputs& shadows, PipelineList& list);
 
 }  // namespace gloam

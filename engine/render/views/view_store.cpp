@@ -26,7 +26,7 @@ Status ViewStore::make_image(ViewImages& view, gpu::ImageHandle& image, const ch
   desc.height = size.y;
   desc.usage = gpu::ImageUsage::color_target | gpu::ImageUsage::transfer_source;
   if (format == gpu::Format::rgba16_float)
-    desc.usage = desc.usage | gpu::ImageUsage::sampled | gpu::ImageUsage::storage;
+    desc.usage = desc.usage | gpu::ImageUsage::sampled | gpu::ImageUsage::storage | gpu::ImageUsage::transfer_target;
   auto made = device_.create_image(desc);
   if (!made.ok()) return made.error();
   image = *made;

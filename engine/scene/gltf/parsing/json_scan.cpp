@@ -271,11 +271,7 @@ void Scanner::take(const SceneValue& value) {
     list.push_back(value.text);
     return;
   }
-  if (top.type == "asset" && top.member == "version") {
-    scan_.version = value.text;
-    // Old exporters write 1 as a number. Another number is a fault of a file of version 2.
-    if (value.kind == Kind::number && value.number < 2.0) scan_.version = nlohmann::json(value.number).dump();
-  }
+  if (top.type == "asset" && top.member == "version") scan_.version = value.text;
   if (top.type == "compressed buffer" && top.member == "fallback" && value.boolean && !scan_.buffers.empty())
     scan_.buffers.back().fallback = true;
   const bool buffer = top.type == "buffer";
@@ -291,6 +287,10 @@ bool Scanner::scalar(SceneValue value) {
   if (!frames_.empty() && frames_.back().is_array) ++frames_.back().items;
   const Expected wanted = expected();
   if (!fits(wanted.form, value)) {
+    // Old exporters write version 1 as a number. Another number is a fault of a file of version 2.
+    if (!frames_.empty() && frames_.back().type == "asset" && frames_.back().member == "version" &&
+        value.kind == Kind::number && value.number < 2.0)
+      scan_.version = nlohmann::json(value.number).dump();
     wrong(wanted, is_list(wanted.form));
     return !frames_.empty();
   }
