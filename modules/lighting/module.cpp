@@ -120,6 +120,7 @@ class LightingModule final : public Module {
     const uvec4 counts = result.value<shaders::LitTileCommands>().counts;
     sink.count("lighting.tiles_kept", counts.x - counts.y);
   }
+  void release_view(ViewId view) override { reuse_.release_view(view); }
   void release() override {
     last_.reset();
     reuse_.release();

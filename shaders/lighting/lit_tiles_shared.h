@@ -12,8 +12,8 @@
 #define GLOAM_LIT_TILES_CHOOSE 3
 #define GLOAM_LIT_RUN_TILES 512  // the longest run; runs begin anew at its multiples
 
-// A word of a run of changed tiles in one row: the row (11 bits), the first tile (11 bits), and the number of tiles
-// - 1.
+// A run of changed tiles in one row is one word: the row (11 bits), the first tile (11 bits), and the number of tiles
+// less one (10 bits).
 
 GLOAM_SHARED_BEGIN
 

@@ -17,9 +17,8 @@ inline constexpr std::uint32_t kJitterPoints = 64;
 
 /// Makes pixel centres show the scene at `pixels` from them: sets RenderView::jitter, moves the projection of this
 /// frame and of `previous` by the same way, and updates what follows from it. The frustum becomes that of all points of
-/// the pixels. A perspective projection is sheared. An
-/// orthographic camera moves across its direction, because not all code expects an orthographic projection off the
-/// axis.
+/// the pixels. A perspective projection is sheared. An orthographic camera moves across its direction, because not all
+/// code expects an orthographic projection off the axis.
 void apply_jitter(RenderView& view, const vec2& pixels);
 
 }  // namespace gloam

@@ -31,7 +31,7 @@ inline constexpr EnumKnob<Culling> kCulling{
     .name = "scene.culling",
     .meaning =
         "solid triangles that are left out: those outside of the view (frustum), also those that others hide "
-        "(occlusion), or the latter only in views of more than 131,072 triangles (auto)",
+        "(occlusion), or the latter only in views of more than 131,072 triangles where the last search has paid (auto)",
     .default_value = Culling::automatic,
     .exact = Culling::frustum,
     .same_picture = true};

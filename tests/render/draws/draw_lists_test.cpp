@@ -18,6 +18,7 @@
 #include "engine/scene/gltf/import.h"
 #include "engine/scene/posing/animation.h"
 #include "tests/jobs/executors.h"
+#include "tests/render/draws/draw_lists_fixture.h"
 #include "tests/render/draws/one_view.h"
 #include "tests/render/draws/visible_points.h"
 #include "tests/support/render_scene.h"
@@ -26,6 +27,10 @@
 namespace gloam {
 namespace {
 
+using test::DrawListsTest;
+using test::drawn_order;
+using test::grid;
+using test::placed;
 using test::surely_visible;
 using test::view_depth;
 
@@ -44,27 +49,6 @@ class Random {
  private:
   std::mt19937 engine_;
 };
-
-dmat4 placed(const dvec3& at, const dvec3& axis, double angle, const dvec3& scale) {
-  return glm::translate(dmat4(1.0), at) * glm::rotate(dmat4(1.0), angle, axis) * glm::scale(dmat4(1.0), scale);
-}
-
-/// A flat grid of 2·side² triangles in XZ, side × side metres. It has many clusters.
-Primitive grid(std::uint32_t side) {
-  Primitive p;
-  for (std::uint32_t z = 0; z <= side; ++z)
-    for (std::uint32_t x = 0; x <= side; ++x)
-      p.positions.push_back({static_cast<float>(x), 0.0f, static_cast<float>(z)});
-  p.normals.assign(p.positions.size(), vec3(0.0f, 1.0f, 0.0f));
-  for (std::uint32_t z = 0; z < side; ++z) {
-    for (std::uint32_t x = 0; x < side; ++x) {
-      const std::uint32_t at = z * (side + 1) + x;
-      for (const std::uint32_t i : {at, at + side + 1, at + 1, at + 1, at + side + 1, at + side + 2})
-        p.indices.push_back(i);
-    }
-  }
-  return test::finished(std::move(p));
-}
 
 /// Random triangles: each is around a point within `reach`.
 Primitive soup(Random& random, std::uint32_t triangles, double reach, double size) {
@@ -90,49 +74,6 @@ Primitive skinned(Primitive p, Random& random, std::uint32_t joints) {
   }
   return p;
 }
-
-/// A world, its scene on a recording device, and draw lists of a view of it.
-class DrawListsTest : public ::testing::Test {
- protected:
-  DrawListsTest() { prepare_scene_world(world_); }
-  void TearDown() override { EXPECT_TRUE(device_->faults().empty()) << device_->faults().front(); }
-
-  void sync() {
-    const Status status = scene_.sync(maker_.assets(), *serial_);
-    ASSERT_TRUE(status.ok()) << status.error().message;
-  }
-  Entity draw(std::uint32_t mesh, const dmat4& matrix, std::uint32_t skin = kNone) {
-    drawn_.push_back(world_.create(WorldTransform{matrix}, MeshInstance{mesh, skin}));
-    return drawn_.back();
-  }
-  void clear() {
-    for (const Entity entity : drawn_) world_.destroy(entity);
-    drawn_.clear();
-    world_.resource<JointMatrices>() = {};
-  }
-  /// Draws a skinned instance with these joint matrices, relative to `origin`.
-  Entity draw_skinned(std::uint32_t mesh, const dvec3& origin, const std::vector<mat4>& matrices,
-                      bool mirrored = false) {
-    const Entity entity = draw(mesh, placed(dvec3(1e3), dvec3(1, 0, 0), 0.0, dvec3(1.0)), 0);
-    auto& joints = world_.resource<JointMatrices>();
-    joints.ranges.push_back({entity, static_cast<std::uint32_t>(joints.matrices.size()),
-                             static_cast<std::uint32_t>(matrices.size()), origin, mirrored});
-    std::ranges::sort(joints.ranges, {}, [](const JointMatrices::Range& r) { return r.instance.index; });
-    joints.matrices.insert(joints.matrices.end(), matrices.begin(), matrices.end());
-    return entity;
-  }
-  [[nodiscard]] FrameDraws lists_of(const RenderView& view) {
-    return test::frame_draws(world_, view, scene_, *serial_);
-  }
-
-  std::unique_ptr<gpu::RecordingDevice> device_ = gpu::make_recording_device();
-  std::unique_ptr<JobExecutor> serial_ = make_serial_executor();
-  Pipelines pipelines_{*device_};
-  GpuScene scene_{*device_, pipelines_};
-  World world_;
-  test::SceneMaker maker_{world_};
-  std::vector<Entity> drawn_;
-};
 
 RenderView random_view(Random& random, const dvec3& around) {
   const dvec3 eye = around + random.point(30.0);
@@ -173,13 +114,6 @@ std::vector<const Draw*> draws_of(const FrameDraws& lists, const GpuPrimitive& p
 bool covers(const std::vector<const Draw*>& draws, std::uint32_t index) {
   return std::any_of(draws.begin(), draws.end(),
                      [&](const Draw* d) { return d->first_index <= index && index < d->first_index + d->index_count; });
-}
-
-/// Indices of a primitive's triangles in the GPU's order.
-std::vector<std::uint32_t> drawn_order(const Primitive& primitive) {
-  std::vector<std::uint32_t> indices;
-  (void)build_clusters(primitive, indices);
-  return indices;
 }
 
 /// Checks the draws of one instance: each is a run of whole clusters, and a culled cluster lies between any two runs.
@@ -287,53 +221,6 @@ TEST_F(RandomScenes, lists_are_ordered_by_pipeline_and_depth_whatever_the_execut
     EXPECT_TRUE(std::ranges::equal(lists.views[0].blended, first.views[0].blended, same)) << executor.name;
     EXPECT_EQ(lists.views[0].culled_instances, first.views[0].culled_instances) << executor.name;
   }
-}
-
-TEST_F(DrawListsTest, a_mesh_seen_whole_is_one_draw_and_a_close_look_draws_few_clusters) {
-  const std::uint32_t mesh = maker_.mesh(grid(64));
-  sync();
-  draw(mesh, placed(dvec3(-32.0, 0.0, -32.0), dvec3(0, 1, 0), 0.0, dvec3(1.0)));
-  const FrameDraws whole = lists_of(make_view(test::look_at(dvec3(0.0, 200.0, 1.0), dvec3(0.0), 64, 64), 0));
-  ASSERT_EQ(whole.views[0].solid.size(), 1u);
-  EXPECT_EQ(whole.views[0].solid[0].index_count, 64u * 64u * 6u);
-  const FrameDraws close = lists_of(make_view(test::look_at(dvec3(3.0, 2.0, 3.0), dvec3(3.0, 0.0, 3.1), 64, 64), 0));
-  std::uint32_t drawn = 0;
-  for (const Draw& d : close.views[0].solid) drawn += d.index_count;
-  EXPECT_GT(drawn, 0u);
-  EXPECT_LT(drawn, 64u * 64u * 6u / 4u);
-  EXPECT_EQ(close.views[0].culled_instances, 0u);
-}
-
-TEST_F(DrawListsTest, the_clusters_of_a_draw_are_its_triangles_in_order_and_their_boxes_hold_them) {
-  const Primitive source = grid(64);
-  const std::uint32_t mesh = maker_.mesh(source);
-  sync();
-  const std::vector<std::uint32_t> order = drawn_order(source);
-  const dmat4 matrix = placed(dvec3(-32.0, 4000.0, 32.0), dvec3(0, 1, 0), 0.1, dvec3(1.0, 3.0, -1.0));
-  draw(mesh, matrix);
-  const dvec3 at(3.0, 4030.0, 3.0);
-  const FrameDraws lists = lists_of(make_view(test::look_at(at, at - dvec3(1.0, 9.0, 2.0), 64, 64), 0));
-  const ViewDraws& view = lists.views[0];
-  ASSERT_FALSE(view.solid.empty());
-  EXPECT_GT(view.clusters.size(), view.solid.size());
-  std::size_t items = 0;
-  for (const Draw& d : view.solid) {
-    std::uint32_t next = d.first_index;
-    for (std::uint32_t c = d.first_cluster; c < d.first_cluster + d.cluster_count; ++c) {
-      const shaders::DrawCluster& cluster = view.clusters[c];
-      ASSERT_EQ(cluster.first_index, next);
-      next += cluster.index_count;
-      for (std::uint32_t i = 0; i < cluster.index_count; ++i) {
-        const vec3 position = source.positions[order[cluster.first_index - d.primitive->first_index + i]];
-        const vec3 relative(dvec3(matrix * dvec4(position, 1.0)) - at);
-        ASSERT_TRUE(glm::all(glm::greaterThanEqual(relative, cluster.low - 1e-3f)));
-        ASSERT_TRUE(glm::all(glm::lessThanEqual(relative, cluster.high + 1e-3f)));
-      }
-    }
-    ASSERT_EQ(next, d.first_index + d.index_count);
-    items += d.cluster_count;
-  }
-  EXPECT_EQ(items, view.clusters.size()) << "no cluster belongs to two draws, or to none";
 }
 
 TEST_F(DrawListsTest, mirrored_instances_cull_the_other_faces_and_two_sided_ones_none) {
