@@ -70,6 +70,8 @@ Result<HistoryImagePair> History::image_pair(FrameGraph& graph, const HistoryVie
 
 void History::on_commit(std::function<void()> function) { state_->on_commit.push_back(std::move(function)); }
 
+bool History::swaps_pairs(const FrameGraph& graph) const { return state_->images.swaps_pairs(graph); }
+
 void History::commit(const FrameGraph& graph, bool aging) {
   State& s = *state_;
   if (aging) ++s.frames;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <compare>
 #include <cstdint>
@@ -90,6 +91,8 @@ class HistoryPool {
   /// sides: 1 for a resource in place, 2 for a pair.
   [[nodiscard]] Result<Used> use(FrameGraph& graph, const HistoryView& view, const Desc& desc, const HistoryUse& use,
                                  std::uint32_t sides);
+  /// Whether `graph` writes the current side of a pair.
+  [[nodiscard]] bool swaps_pairs(const FrameGraph& graph) const;
   void commit(const FrameGraph& graph, std::uint64_t now);
   void give_up();
   void release_unused(std::uint64_t now);
@@ -238,6 +241,14 @@ Result<typename HistoryPool<Kind>::Used> HistoryPool<Kind>::use(FrameGraph& grap
                                       pending.contents.left[side], use.final_access);
   }
   return used(graph, pending);
+}
+
+template <class Kind>
+bool HistoryPool<Kind>::swaps_pairs(const FrameGraph& graph) const {
+  return std::ranges::any_of(items_, [&](const auto& entry) {
+    const std::optional<Pending>& pending = entry.second.pending;
+    return pending && pending->contents.sides == 2 && graph.writes(pending->refs[pending->current]);
+  });
 }
 
 template <class Kind>

@@ -32,6 +32,9 @@ struct FrameReport {
   double cpu_ms = 0.0;  ///< systems, declaration and recording
   double gpu_ms = 0.0;
   std::vector<PassTime> passes;
+  /// Nothing has changed since the frame before the last: the GPU has drawn nothing, pictures, results and counters are
+  /// those of the frames before, and there are no GPU times (scene.reuse).
+  bool kept = false;
   /// When the last frame was given to the GPU: ZoneRecorder::now_ns just before; 0 without a recorder.
   std::uint64_t submitted_ns = 0;
   std::vector<ModuleState> modules;  ///< "engine" first, then in list order

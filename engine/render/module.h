@@ -188,6 +188,9 @@ class Module {
   /// simulates, or adapts to earlier frames. Tools then do not keep a picture of the world in place of drawing it.
   /// Accumulation that comes to rest (frames_to_rest) does not count. Called like needs_casters.
   [[nodiscard]] virtual bool changes_at_rest(const World&, const KnobRegistry&) const { return false; }
+  /// Whether the module is told to compute every frame anew. Frames in which nothing has changed are then drawn, too,
+  /// although scene.reuse would keep the last one. Called like needs_casters.
+  [[nodiscard]] virtual bool computes_every_frame(const World&, const KnobRegistry&) const { return false; }
   /// Whether a frame without the module makes no sense. Then frames wait for its pipelines even with
   /// Readiness::background.
   [[nodiscard]] virtual bool essential() const { return false; }

@@ -27,7 +27,7 @@ constexpr std::uint32_t kWorth = 40;  // percent of the tiles that must be spare
 std::uint64_t inputs_hash(const FrameBuilder& frame, const ShadowsOutputs& shadows,
                           const gpu::SpecConstants& constants) {
   shaders::ViewConstants view = view_constants(frame.view());
-  view.frame = view.visualizer = 0;
+  view.visualizer = 0;
   const auto& sky = frame.world().resource<SceneEnvironment>();
   Hasher hasher;
   hasher.bytes_of(view).bytes_of(sky.sky_zenith).bytes_of(sky.sky_horizon).bytes_of(sky.sky_ground);

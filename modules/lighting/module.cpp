@@ -73,6 +73,9 @@ class LightingModule final : public Module {
   [[nodiscard]] bool changes_at_rest(const World&, const KnobRegistry& knobs) const override {
     return knobs.value(kExposure) == ExposureMode::adapting;
   }
+  [[nodiscard]] bool computes_every_frame(const World&, const KnobRegistry& knobs) const override {
+    return knobs.value(kLightReuse) == LightReuseKind::off;
+  }
   [[nodiscard]] std::uint32_t frames_to_rest(const World&, const KnobRegistry& knobs) const override {
     return knobs.value(kAntialiasing) == Antialiasing::taa ? kAccumulatedFrames : 0;
   }

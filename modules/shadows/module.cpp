@@ -171,6 +171,9 @@ class ShadowsModule final : public Module {
     sink.count("shadows.atlas_used", static_cast<double>(view_faces.atlas.used_texels()) / std::max(texels, 1.0));
   }
 
+  [[nodiscard]] bool computes_every_frame(const World&, const KnobRegistry& knobs) const override {
+    return knobs.value(kShadowReuse) == ShadowReuse::off;
+  }
   [[nodiscard]] bool spreads_work(const World& world, const RenderView& view) const override {
     const auto* view_faces = world.try_view_resource<ViewFaces>(view.id);
     return view_faces != nullptr && view_faces->faces_waiting > 0;

@@ -10,6 +10,7 @@
 #include "engine/core/processor_time.h"
 #include "engine/core/text/formatted.h"
 #include "engine/render/draws/culling.h"
+#include "engine/render/kept_frames/kept_frames.h"
 #include "modules/accuracy/module.h"
 #include "modules/accuracy/outputs.h"
 #include "modules/module_list/module_list.h"
@@ -119,7 +120,7 @@ class ConsoleProgress final : public CostProgress {
 KnobRegistry measurable_knobs() {
   KnobRegistry registry;
   for (const auto& module : make_all_modules()) module->knobs(registry);
-  add_knobs(registry, "scene", kCulling);
+  add_knobs(registry, "scene", kCulling, kFrameReuse);
   add_knobs(registry, "views", kViewScale);
   return registry;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/render/draws/culling.h"
+#include "engine/render/kept_frames/kept_frames.h"
 #include "modules/lighting/outputs.h"
 #include "modules/reflections/module.h"
 #include "modules/shadows/outputs.h"
@@ -38,7 +39,7 @@ std::vector<float> heat_ranges(const KnobRegistry& knobs) {
 KnobRegistry all_knobs(const ModuleList& modules) {
   KnobRegistry knobs;
   for (const auto& module : modules) module->knobs(knobs);
-  add_knobs(knobs, "scene", kCulling);
+  add_knobs(knobs, "scene", kCulling, kFrameReuse);
   add_program_knobs(knobs);
   return knobs;
 }
@@ -49,6 +50,7 @@ Status set_knobs(KnobRegistry& knobs, const Options& options) {
     knobs.set(kAntialiasing, Antialiasing::smaa);
   // What is measured at rest is what moving cameras pay.
   if (options.command == Command::cost || options.command == Command::bench) {
+    knobs.set(kFrameReuse, FrameReuse::off);
     knobs.set(kShadowReuse, ShadowReuse::off);
     knobs.set(kLightReuse, LightReuseKind::off);
   }

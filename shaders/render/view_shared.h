@@ -21,7 +21,6 @@ struct ViewConstants {
   vec2 inverse_size;
   float near_m;
   uint orthographic;  // 0 or 1
-  uint frame;         // number of the frame
   uint visualizer;    // code in debug_view.frag; 0: none of its visualizers
   // dot(xyz, p) + w >= 0: the visible side; p is relative to the camera. Of views that are clipped.
   vec4 clip_plane;

@@ -63,7 +63,7 @@ ROOMS = {
     "engine/scene": (("decoding", "keys", "assets", "gltf", "posing"),
                      ("assets", "components", "resources", "scene_path", "transforms", "units")),
     "engine/scene/gltf": (("parsing", "validation", "buffers", "assets", "entities"), ("document", "place")),
-    "engine/render": (("knobs", "governor", "camera", "pipelines", "packing", "uploads", "scene", "draws", "declare", "resources", "sort",
+    "engine/render": (("knobs", "governor", "kept_frames", "camera", "pipelines", "packing", "uploads", "scene", "draws", "declare", "resources", "sort",
                        "passes", "readback", "reference", "kernel_check", "worlds", "modules_in_use", "views", "report", "frame", "redraw"),
                       ("view", "outputs", "frame_builder", "settled_result", "host_geometry", "module", "view_request", "frame_report",
                        "renderer_options", "board")),

@@ -13,7 +13,6 @@ shaders::ViewConstants view_constants(const RenderView& view) {
   constants.inverse_size = 1.0f / vec2(static_cast<float>(view.width), static_cast<float>(view.height));
   constants.near_m = view.near_m;
   constants.orthographic = view.camera.orthographic ? 1 : 0;
-  constants.frame = static_cast<std::uint32_t>(view.frame);
   constants.clip_plane = view.clip_plane;
   constants.light_scale = view.light_scale;
   constants.mip_bias = view.mip_bias;

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <chrono>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "engine/core/zones.h"
 #include "engine/render/frame/attempt.h"
 #include "engine/render/frame/stages.h"
+#include "engine/render/kept_frames/digest_commands.h"
 #include "engine/render/report/oversights.h"
 #include "engine/render/views/seen_surfaces.h"
 #include "engine/scene/resources.h"
@@ -116,11 +118,47 @@ void commit_frame(Frame& frame, std::span<const ViewRequest> requests, RendererP
   for (const ViewId idle : parts.views.take_idle_companions(companions)) release_view(parts, idle);
 }
 
+/// Whether the last frame may be kept in place of this one, if it repeats it. Before the frame is recorded. Not where
+/// the caller draws into the picture, or has an image of its own in which somebody else may have drawn since.
+bool may_keep(const Frame& frame, const RendererParts& parts) {
+  if (frame.redraw != nullptr || frame.any_needs(parts.modules, &Module::changes_at_rest) ||
+      frame.any_needs(parts.modules, &Module::computes_every_frame))
+    return false;
+  return std::ranges::all_of(frame.views, [&](const FrameView& own) {
+    const ViewTarget& target = own.request.target;
+    return frame.knobs_of(own).value(kFrameReuse) == FrameReuse::exact && !own.request.geometry && !target.image &&
+           !target.acquire && !target.overlay && !target.light;
+  });
+}
+
 /// Undoes what was noted for a frame that the GPU does not execute. number: its Device::frame_number.
 void give_up_frame(const Frame& frame, std::uint64_t number, RendererParts& parts) {
+  parts.kept_frames.restart();
   parts.resources.give_up_frame();
   parts.worlds.scene_of(frame.world).give_up_frame();
   parts.modules.give_up_frame(number);
+}
+
+/// Records the frame. digest: set if the frame may be kept, to what it does.
+Status record(Frame& frame, RendererParts& parts, gpu::CommandList& commands, std::optional<std::uint64_t>& digest) {
+  if (!may_keep(frame, parts)) return record_frame(frame, parts, commands);
+  DigestCommands digesting(commands, *parts.options.device);
+  GLOAM_TRY(record_frame(frame, parts, digesting));
+  if (!parts.resources.history.swaps_pairs(parts.resources.graph)) digest = digesting.digest();
+  return {};
+}
+
+/// Submits a recorded frame, or drops its commands if the last frames did the same.
+Status finish(const std::optional<std::uint64_t>& digest, RendererParts& parts) {
+  gpu::Device& device = *parts.options.device;
+  parts.last_frame.kept = digest && parts.kept_frames.repeats(*digest);
+  parts.last_frame.submitted_ns = parts.options.zones == nullptr ? 0 : parts.options.zones->now_ns();
+  GLOAM_TRY(parts.last_frame.kept ? device.abandon_frame() : device.submit_frame());
+  if (digest)
+    parts.kept_frames.add(*digest);
+  else
+    parts.kept_frames.restart();
+  return {};
 }
 
 /// Records the frame and submits it, or gives it up.
@@ -129,17 +167,17 @@ Status submit(Frame& frame, std::span<const ViewRequest> requests, RendererParts
   auto commands = device.begin_frame();
   if (!commands.ok()) return commands.error();
   const std::uint64_t number = device.frame_number();
+  std::optional<std::uint64_t> digest;
   Status drawn;
   try {
-    drawn = record_frame(frame, parts, **commands);
+    drawn = record(frame, parts, **commands, digest);
   } catch (...) {
     static_cast<void>(device.abandon_frame());
     give_up_frame(frame, number, parts);
     throw;
   }
   if (drawn.ok()) {
-    parts.last_frame.submitted_ns = parts.options.zones == nullptr ? 0 : parts.options.zones->now_ns();
-    drawn = device.submit_frame();
+    drawn = finish(digest, parts);
   } else {
     static_cast<void>(device.abandon_frame());  // if the device is lost, the next begin_frame says so
   }

@@ -20,7 +20,7 @@ RendererParts::RendererParts(RendererOptions given)
       views(*options.device) {
   add_scene_systems(schedule);
   modules.add_to(knobs.set, schedule);
-  add_knobs(knobs.set, "scene", kCulling);
+  add_knobs(knobs.set, "scene", kCulling, kFrameReuse);
 }
 
 RendererParts::~RendererParts() {

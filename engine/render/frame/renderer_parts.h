@@ -7,6 +7,7 @@
 #include "engine/core/once_log.h"
 #include "engine/gpu/device.h"
 #include "engine/render/governor/budgets.h"
+#include "engine/render/kept_frames/kept_frames.h"
 #include "engine/render/modules_in_use/knobs_in_use.h"
 #include "engine/render/modules_in_use/module_set.h"
 #include "engine/render/renderer_options.h"
@@ -44,6 +45,7 @@ struct RendererParts {
   WorldSlots worlds;
   ViewStore views;
   LastFrame last_frame;
+  KeptFrames kept_frames;
   bool drawing = false;  ///< a frame is being drawn
 };
 

@@ -77,10 +77,14 @@ std::map<std::string, double> LastFrame::counters(const ModuleList& modules, con
 FrameReport LastFrame::report(const ModuleSet& modules, FrameResources& resources, const gpu::Device& device) const {
   FrameReport report;
   report.cpu_ms = cpu_ms;
-  report.passes = resources.graph.pass_times();
-  report.gpu_ms = resources.graph.gpu_ms();
+  report.kept = kept;
+  if (!kept) {
+    report.passes = resources.graph.pass_times();
+    report.gpu_ms = resources.graph.gpu_ms();
+  }
   report.submitted_ns = submitted_ns;
   report.counters = counters(modules.list(), resources.results);
+  if (!report.counters.empty()) report.counters["scene.kept"] = kept ? 1.0 : 0.0;
   report.views = views_;
   report.plans_compiled = resources.graph.plans_compiled();
   report.pipelines_pending = resources.pipelines.pending();

@@ -23,6 +23,7 @@ class LastFrame {
   double cpu_ms = 0.0;             ///< of the last call of Renderer::render
   std::uint64_t submitted_ns = 0;  ///< FrameReport::submitted_ns
   std::size_t assets_pending = 0;  ///< FrameReport::assets_pending
+  bool kept = false;               ///< FrameReport::kept
 
   bool spreads_work = false;  ///< a view spreads work over frames (Module::spreads_work)
 

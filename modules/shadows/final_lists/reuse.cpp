@@ -21,7 +21,7 @@ constexpr std::uint64_t kFramesKept = 120;
 std::uint64_t shared_hash(const FrameBuilder& frame, const ShadowKnobs& knobs, const ShadowsOutputs& shadows,
                           const KeptSizes& sizes) {
   shaders::ViewConstants view = view_constants(frame.view());
-  view.frame = view.visualizer = 0;
+  view.visualizer = 0;
   view.normal_variance = view.light_scale = 0.0f;
   const ViewFaces& faces = frame.world().view_resource<ViewFaces>(frame.view().id);
   Hasher hasher;
