@@ -192,6 +192,12 @@ Status Renderer::replace_shader(const gpu::ShaderCode& embedded, std::vector<std
   return {};
 }
 
+std::string Renderer::pipeline_record() const { return parts_->resources.pipelines.record(); }
+
+std::size_t Renderer::make_pipelines(std::string_view record, std::span<const gpu::ShaderCode* const> shaders) {
+  return parts_->resources.pipelines.request_record(record, shaders, *parts_->options.log);
+}
+
 std::string Renderer::describe() const { return parts_->schedule.describe() + parts_->resources.graph.describe(); }
 
 }  // namespace gloam

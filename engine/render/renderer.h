@@ -132,6 +132,12 @@ class Renderer {
   /// error if the words are no SPIR-V, or if passes that were written for the embedded shader cannot use them
   /// (gpu::interface_difference); then nothing changes.
   [[nodiscard]] Status replace_shader(const gpu::ShaderCode& embedded, std::vector<std::uint32_t> words);
+  /// All pipelines that exist, as text for make_pipelines() of a later process.
+  [[nodiscard]] std::string pipeline_record() const;
+  /// Has the pipelines of a record made in the background, for example while a scene is loaded, so that the first frame
+  /// finds them. shaders: those that pipelines may have; they must outlive the renderer. Pipelines of other shaders,
+  /// such as those of another build, and damaged records are left out. Returns the number of pipelines.
+  std::size_t make_pipelines(std::string_view record, std::span<const gpu::ShaderCode* const> shaders);
   /// Lists systems and passes as text, for users and tests.
   [[nodiscard]] std::string describe() const;
 

@@ -14,6 +14,7 @@
 #include "sandbox/session/drawing/frame_tracing.h"
 #include "sandbox/session/drawing/list_room.h"
 #include "sandbox/session/drawing/session_budget.h"
+#include "sandbox/session/loading/kept_pipelines.h"
 #include "sandbox/session/loading/scene_loading.h"
 #include "sandbox/session/program_knobs.h"
 #include "sandbox/session/results/heat_fit.h"
@@ -79,6 +80,7 @@ Result<std::vector<FrameSample>> render_frames(Session& session, const CommandCo
     session.set_clock(options.time_s + frame * options.dt_s, options.dt_s);
     if (!has_budget(options)) {
       GLOAM_TRY(run.draw(request_of(shown.drawn(), options)));
+      if (frame == 0) keep_pipelines(session, options, context.log);
       continue;
     }
     auto sample = render_in_budget(session, context, shown, samples);
@@ -121,6 +123,7 @@ Result<std::vector<FrameSample>> render_sequence(Session& session, const Command
     auto sample = render_in_budget(session, context, shown, samples);
     if (!sample) return sample.error();
     samples.push_back(std::move(sample).value());
+    if (frame == 0) keep_pipelines(session, options, context.log);
     GLOAM_TRY(settle_view(session, context, shown, samples.back()));
     GLOAM_TRY(write_picture(
         {.session = session, .view = shown.view, .samples = samples, .width = options.width, .height = options.height},

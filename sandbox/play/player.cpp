@@ -49,7 +49,7 @@ Player::Player(const Options& options, Session& session, WindowPictures& picture
       log_(log),
       orbit_(session),
       on_software_(session.device->info().type == gpu::DeviceType::cpu),
-      scale_(scale_limits(on_software_).budget_ms, lasting.scale),
+      scale_(scale_limits(on_software_).budget, lasting.scale),
       upscaler_(*session.device),
       kept_picture_(*session.device),
       title_(pictures.window()),
@@ -133,11 +133,13 @@ void Player::look_along(const dvec3& direction) {
   flight_.fly_to(session_.world, eye, eye + direction, settings_);
 }
 
-dvec3 Player::eye() const {
+dmat4 Player::shown_camera() const {
   ViewSettings seen = settings_;
   if (seen.follow_camera) follow_camera(session_.world, seen);
-  return dvec3(seen.world_from_camera[3]);
+  return seen.world_from_camera;
 }
+
+dvec3 Player::eye() const { return dvec3(shown_camera()[3]); }
 
 void Player::pause(bool paused) {
   paused_ = paused;
@@ -294,7 +296,10 @@ void Player::adapt_to_time() {
   const bool own = unjudged_ == 0;
   if (unjudged_ > 0) --unjudged_;
   const bool judged = wipe_.judges_frame() && own;
-  if (!options_.budget_ms && judged) scale_.add(ms);
+  const dmat4 camera = shown_camera();
+  const bool moving = camera != last_camera_;
+  last_camera_ = camera;
+  if (!options_.budget_ms && judged) scale_.add(ms, moving);
   for (const BudgetDecision& told : add_frame_times(renderer, {.ms = ms, .judged = judged, .view = views_}, report))
     panel_.tell(budget_text(told.decision, *renderer.budget(told.effect)), false);
 }

@@ -69,6 +69,8 @@ class Player {
   void show_camera(std::uint32_t number);
   void fly_to(const dvec3& position);
   void look_along(const dvec3& direction);
+  /// World from the camera that the window shows.
+  [[nodiscard]] dmat4 shown_camera() const;
   [[nodiscard]] dvec3 eye() const;
   void pause(bool paused);
   /// The exact side of a wipe takes long, and both sides show one moment, so it pauses the scene.
@@ -119,8 +121,9 @@ class Player {
   OrbitControls orbit_;
   bool on_software_;
   ResolutionScale scale_;
-  double drawn_scale_ = 0.0;  ///< of the last frame; 0: none yet
-  std::uint64_t views_ = 0;   ///< camera cuts so far, for the budget
+  dmat4 last_camera_ = dmat4(1.0);  ///< shown_camera() of the last frame
+  double drawn_scale_ = 0.0;        ///< of the last frame; 0: none yet
+  std::uint64_t views_ = 0;         ///< camera cuts so far, for the budget
   Upscaler upscaler_;
   KeptPicture kept_picture_;
   Refinement refinement_;

@@ -12,6 +12,7 @@
 #include "engine/scene/systems.h"
 #include "modules/module_list/module_list.h"
 #include "sandbox/session/drawing/frame_run.h"
+#include "sandbox/session/loading/kept_pipelines.h"
 #include "sandbox/session/loading/scene_loading.h"
 #include "sandbox/session/program_knobs.h"
 
@@ -92,7 +93,9 @@ Result<std::unique_ptr<Session>> open_session_on(std::shared_ptr<gpu::Device> de
                                                  LogSink& log, ModuleList more_modules) {
   GLOAM_TRY(check_scene_exists(options.scene));
   auto session = open_empty_session(std::move(device), options, log, std::move(more_modules));
-  if (session) GLOAM_TRY(fill_session(**session, options, log));
+  if (!session) return session;
+  if (options.command == Command::render) make_kept_pipelines(**session, options);
+  GLOAM_TRY(fill_session(**session, options, log));
   return session;
 }
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/render/pipelines/pipelines.h"
 
+#include <algorithm>
+#include <functional>
 #include <system_error>
 #include <type_traits>
 
@@ -25,11 +27,20 @@ std::uint64_t key_of_any(const AnyDesc& desc) {
   return std::visit([](const auto& d) { return hash_of(d); }, desc);
 }
 
-std::array<std::string, 2> shaders_of(const gpu::ComputePipelineDesc& desc) {
-  return {std::string(desc.shader.name), ""};
+bool has_shader(const gpu::ComputePipelineDesc& desc, std::string_view name) { return desc.shader.name == name; }
+bool has_shader(const gpu::GraphicsPipelineDesc& desc, std::string_view name) {
+  return desc.vertex.name == name || desc.fragment.name == name;
 }
-std::array<std::string, 2> shaders_of(const gpu::GraphicsPipelineDesc& desc) {
-  return {std::string(desc.vertex.name), std::string(desc.fragment.name)};
+
+std::size_t words_of(const AnyDesc& any) {
+  return std::visit(
+      [](const auto& desc) {
+        if constexpr (requires { desc.fragment; })
+          return desc.vertex.words.size() + desc.fragment.words.size();
+        else
+          return desc.shader.words.size();
+      },
+      any);
 }
 
 std::string_view shader_of(const gpu::ComputePipelineDesc& desc) { return desc.shader.name; }
@@ -59,13 +70,27 @@ Pipelines::~Pipelines() {
   for (auto& [name, entry] : entries_) device_.destroy(entry.pipeline);
 }
 
+std::optional<gpu::PipelineHandle> Pipelines::find_or_begin(std::uint64_t key) {
+  std::unique_lock lock(mutex_);
+  made_one_.wait(lock, [&] { return !making_.contains(key); });
+  if (const auto found = entries_.find(key); found != entries_.end()) return found->second.pipeline;
+  if (std::erase_if(queue_, [&](const AnyDesc& queued) { return key_of_any(queued) == key; }) > 0) begun_.erase(key);
+  making_.insert(key);
+  return std::nullopt;
+}
+
+void Pipelines::end_making(std::uint64_t key) {
+  {
+    const std::lock_guard lock(mutex_);
+    making_.erase(key);
+  }
+  made_one_.notify_all();
+}
+
 template <class Desc>
 Result<gpu::PipelineHandle> Pipelines::find_or_make(const Desc& desc) {
   const std::uint64_t key = key_of(desc);
-  {
-    const std::lock_guard lock(mutex_);
-    if (const auto found = entries_.find(key); found != entries_.end()) return found->second.pipeline;
-  }
+  if (const auto found = find_or_begin(key)) return *found;
   Desc named = desc;
   named.name = name_of(desc);
   {
@@ -79,13 +104,14 @@ Result<gpu::PipelineHandle> Pipelines::find_or_make(const Desc& desc) {
     // The new code of a replaced shader may not use all constants.
     if (!replaced_.empty()) named.constants = desc.constants.where_present();
   }
-  auto made = device_.create_pipeline(named);  // outside the lock: compiling takes long
-  if (!made.ok()) return made.error();
-  const std::lock_guard lock(mutex_);
-  failed_.erase(key);
-  const auto [place, fresh] = entries_.try_emplace(key, Entry{desc.module, *made, shaders_of(desc)});
-  if (!fresh) device_.destroy(*made);  // another thread was faster
-  return place->second.pipeline;
+  const auto made = device_.create_pipeline(named);  // outside the lock: compiling takes long
+  if (made.ok()) {
+    const std::lock_guard lock(mutex_);
+    failed_.erase(key);
+    entries_.insert_or_assign(key, Entry{desc, *made});
+  }
+  end_making(key);
+  return made;
 }
 
 template Result<gpu::PipelineHandle> Pipelines::find_or_make(const gpu::ComputePipelineDesc&);
@@ -158,8 +184,7 @@ void Pipelines::replace_shader(std::string_view name, std::vector<std::uint32_t>
   ++replacements_;
   failed_.clear();  // they may succeed now
   std::erase_if(entries_, [&](const auto& entry) {
-    const auto& shaders = entry.second.shaders;
-    if (shaders[0] != name && shaders[1] != name) return false;
+    if (!std::visit([&](const auto& desc) { return has_shader(desc, name); }, entry.second.desc)) return false;
     device_.destroy(entry.second.pipeline);
     return true;
   });
@@ -170,6 +195,25 @@ std::uint64_t Pipelines::replacements() const {
   return replacements_;
 }
 
+std::string Pipelines::record() const {
+  PipelineList list;
+  const std::lock_guard lock(mutex_);
+  for (const auto& [key, entry] : entries_) list.push_back(entry.desc);
+  return pipeline_record(list);
+}
+
+std::size_t Pipelines::request_record(std::string_view record, std::span<const gpu::ShaderCode* const> shaders,
+                                      LogSink& log) {
+  PipelineList list;
+  {
+    const std::lock_guard lock(mutex_);
+    list = parse_pipeline_record(record, shaders, names_);
+  }
+  std::ranges::stable_sort(list, std::greater(), words_of);
+  static_cast<void>(request(list, log));
+  return list.size();
+}
+
 void Pipelines::release(std::string_view module) {
   const std::lock_guard lock(mutex_);
   for (const AnyDesc& desc : queue_)
@@ -177,7 +221,7 @@ void Pipelines::release(std::string_view module) {
   std::erase_if(queue_, [&](const AnyDesc& desc) { return module_of(desc) == module; });
   std::erase_if(failed_, [&](const auto& failed) { return failed.second == module; });
   for (auto it = entries_.begin(); it != entries_.end();) {
-    if (it->second.module != module) {
+    if (module_of(it->second.desc) != module) {
       ++it;
       continue;
     }

@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <mutex>
+#include <optional>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <string_view>
@@ -22,6 +23,7 @@
 #include "engine/core/result.h"
 #include "engine/gpu/device.h"
 #include "engine/render/pipelines/pipeline_list.h"
+#include "engine/render/pipelines/pipeline_record.h"
 
 namespace gloam {
 
@@ -57,6 +59,12 @@ class Pipelines {
   void replace_shader(std::string_view name, std::vector<std::uint32_t> words);
   /// Calls of replace_shader() so far. Pictures of before may differ from those that the same inputs give now.
   [[nodiscard]] std::uint64_t replacements() const;
+  /// The descriptions of all pipelines that exist, as text for request_record() of a later process.
+  [[nodiscard]] std::string record() const;
+  /// Has the pipelines of a record made in the background, largest shader first, for example while a scene is loaded:
+  /// those of `shaders`, which must live as long as this object. Others are left out, as is all of a damaged record.
+  /// Returns their number.
+  std::size_t request_record(std::string_view record, std::span<const gpu::ShaderCode* const> shaders, LogSink& log);
   /// Destroys all pipelines of a module, removes its queued ones and forgets its failures. A pipeline that is being
   /// compiled in the background stays.
   void release(std::string_view module);
@@ -68,10 +76,13 @@ class Pipelines {
   [[nodiscard]] gpu::PipelineHandle find_existing(const Desc& desc) const;
 
   struct Entry {
-    std::string module;
+    PipelineList::value_type desc;
     gpu::PipelineHandle pipeline;
-    std::array<std::string, 2> shaders;  ///< names
   };
+  /// Waits until no other thread makes this pipeline. Then either it exists, or it is this thread's to make and no
+  /// longer queued: end_making() must follow.
+  [[nodiscard]] std::optional<gpu::PipelineHandle> find_or_begin(std::uint64_t key);
+  void end_making(std::uint64_t key);
   /// The words that replace those of a shader; without words, the shader itself.
   [[nodiscard]] gpu::ShaderCode current(const gpu::ShaderCode& shader) const;
   void run_worker(const std::stop_token& stop, LogSink& log);
@@ -81,13 +92,16 @@ class Pipelines {
   gpu::Device& device_;
   mutable std::mutex mutex_;
   std::unordered_map<std::uint64_t, Entry> entries_;       ///< by hash of module and description, as the members below
-  std::unordered_set<std::uint64_t> begun_;                ///< queued or being compiled
+  std::unordered_set<std::uint64_t> begun_;                ///< queued or being compiled in the background
+  std::unordered_set<std::uint64_t> making_;               ///< being compiled by any thread
+  std::condition_variable made_one_;                       ///< making_ has lost one
   std::unordered_map<std::uint64_t, std::string> failed_;  ///< failed in the background: module
   /// By name. Devices may identify shaders by the address of their words, so that replaced words stay.
   std::unordered_map<std::string, std::deque<std::vector<std::uint32_t>>> replaced_;
   std::uint64_t replacements_ = 0;
   PipelineList queue_;
-  std::string made_;  ///< made_in_background
+  PipelineNames names_;  ///< of constants, from records
+  std::string made_;     ///< made_in_background
   std::condition_variable_any wake_;
   std::jthread worker_;  ///< started by the first request; destroyed before the members above
 };

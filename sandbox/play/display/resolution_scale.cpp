@@ -20,8 +20,8 @@ constexpr double kFixedShareDown = 0.25;  // geometry, shadow maps and lists har
 
 }  // namespace
 
-ResolutionScale::ResolutionScale(double budget_ms, double setting) : budget_ms_(budget_ms), setting_(setting) {
-  GLOAM_ASSERT(budget_ms > 0.0, "the time of a frame is above 0");
+ResolutionScale::ResolutionScale(const Budget& budget, double setting) : budget_(budget), setting_(setting) {
+  GLOAM_ASSERT(budget.rest_ms > 0.0 && budget.moving_ms > 0.0, "the time of a frame is above 0");
 }
 
 void ResolutionScale::set(double setting) {
@@ -39,42 +39,41 @@ void ResolutionScale::start(std::uint32_t width, std::uint32_t height, double mo
   blocked_until_ = {};
 }
 
-bool ResolutionScale::add(double frame_ms) {
+bool ResolutionScale::add(double frame_ms, bool moving) {
   ++frame_;
   if (unjudged_ > 0) {
     --unjudged_;
     return false;
   }
   if (times_.size() == kBeforeUp) times_.erase(times_.begin());
-  times_.push_back(frame_ms);
+  times_.push_back(frame_ms / (moving ? budget_.moving_ms : budget_.rest_ms));
   if (setting_ > 0.0) return false;
   if (times_.size() < kBeforeDown) return false;
   const std::vector<double> newest(times_.end() - kBeforeDown, times_.end());
-  const double now_ms = summarize(newest).median;
-  if (now_ms > budget_ms_ && step_ > 0) {
+  const double now = summarize(newest).median;
+  if (now > 1.0 && step_ > 0) {
     blocked_until_[step_] = frame_ + kBlockedFrames;
-    change_to(std::min(fitting_step(now_ms, kDownAim * budget_ms_, kFixedShareDown), step_ - 1));
+    change_to(std::min(fitting_step(now, kDownAim, kFixedShareDown), step_ - 1));
     return true;
   }
   if (times_.size() < kBeforeUp) return false;
-  const double steady_ms = summarize(times_).median;
-  std::size_t step = fitting_step(steady_ms, kUpAim * budget_ms_, 0.0);
+  const double steady = summarize(times_).median;
+  std::size_t step = fitting_step(steady, kUpAim, 0.0);
   for (std::size_t above = step_ + 1; above <= step; ++above)
-    if (blocked_until_[above] > frame_ && expected_ms(steady_ms, above, 0.0) > kSurelyFast * budget_ms_)
-      step = above - 1;
+    if (blocked_until_[above] > frame_ && expected(steady, above, 0.0) > kSurelyFast) step = above - 1;
   if (step <= step_) return false;
   change_to(step);
   return true;
 }
 
-double ResolutionScale::expected_ms(double frame_ms, std::size_t step, double fixed_share) const {
+double ResolutionScale::expected(double time, std::size_t step, double fixed_share) const {
   const double ratio = kSteps[step] / kSteps[step_];
-  return frame_ms * (fixed_share + (1.0 - fixed_share) * ratio * ratio);
+  return time * (fixed_share + (1.0 - fixed_share) * ratio * ratio);
 }
 
-std::size_t ResolutionScale::fitting_step(double frame_ms, double budget_ms, double fixed_share) const {
+std::size_t ResolutionScale::fitting_step(double time, double most, double fixed_share) const {
   std::size_t step = kSteps.size() - 1;
-  while (step > 0 && expected_ms(frame_ms, step, fixed_share) > budget_ms) --step;
+  while (step > 0 && expected(time, step, fixed_share) > most) --step;
   return step;
 }
 
@@ -85,9 +84,10 @@ void ResolutionScale::change_to(std::size_t step) {
 }
 
 ScaleLimits scale_limits(bool on_software) {
-  // Software devices must keep 10 frames a second; a frame of the first pixels takes them about 80 ms.
-  return on_software ? ScaleLimits{.budget_ms = 85.0, .first_pixels = 115000.0}
-                     : ScaleLimits{.budget_ms = 20.0, .first_pixels = 1e9};
+  // Software devices should keep 20 frames a second at rest and 10 while the camera moves. A frame of the first pixels
+  // takes them about 80 ms.
+  return on_software ? ScaleLimits{.budget = {.rest_ms = 46.0, .moving_ms = 85.0}, .first_pixels = 115000.0}
+                     : ScaleLimits{.budget = {.rest_ms = 20.0, .moving_ms = 20.0}, .first_pixels = 1e9};
 }
 
 std::uint32_t scaled_side(std::uint32_t size, double scale) {

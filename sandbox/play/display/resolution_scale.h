@@ -23,8 +23,13 @@ class ResolutionScale {
   /// Frames for which a step that was too slow is not tried again, unless frames have become much faster.
   static constexpr std::uint64_t kBlockedFrames = 400;
 
-  /// budget_ms: the time of a frame that automatic changes aim at, > 0. setting: as for set().
-  ResolutionScale(double budget_ms, double setting);
+  /// The time of a frame that automatic changes aim at, in milliseconds, > 0.
+  struct Budget {
+    double rest_ms = 0.0;    ///< while the camera rests
+    double moving_ms = 0.0;  ///< while it moves, and what is kept at rest is computed
+  };
+  /// setting: as for set().
+  ResolutionScale(const Budget& budget, double setting);
 
   /// setting: 0 for automatic, otherwise the fixed scale, 0.25…1.
   void set(double setting);
@@ -36,17 +41,18 @@ class ResolutionScale {
   /// at least the smallest step. Width and height in pixels, > 0.
   void start(std::uint32_t width, std::uint32_t height, double most_pixels);
 
-  /// Adds a frame's time. Returns whether the automatic scale has changed.
-  bool add(double frame_ms);
+  /// Adds a frame's time. moving: the camera has moved in it. Returns whether the automatic scale has changed.
+  bool add(double frame_ms, bool moving);
 
  private:
+  // Times are shares of their budgets.
   /// The time at a step, from that at the present one. Of a frame's time, `fixed_share` does not depend on its pixels.
-  [[nodiscard]] double expected_ms(double frame_ms, std::size_t step, double fixed_share) const;
-  /// The largest step whose time is expected within `budget_ms`; at least 0.
-  [[nodiscard]] std::size_t fitting_step(double frame_ms, double budget_ms, double fixed_share) const;
+  [[nodiscard]] double expected(double time, std::size_t step, double fixed_share) const;
+  /// The largest step whose time is expected within `most`; at least 0.
+  [[nodiscard]] std::size_t fitting_step(double time, double most, double fixed_share) const;
   void change_to(std::size_t step);
 
-  double budget_ms_;
+  Budget budget_;
   double setting_;
   std::size_t step_ = kSteps.size() - 1;
   std::vector<double> times_;  ///< since the last change, without unjudged frames; kBeforeUp at most
@@ -57,7 +63,7 @@ class ResolutionScale {
 
 /// Limits of the automatic scale on a kind of device.
 struct ScaleLimits {
-  double budget_ms = 0.0;     ///< a frame's time that automatic changes aim at
+  ResolutionScale::Budget budget;
   double first_pixels = 0.0;  ///< most pixels of the first frames
 };
 [[nodiscard]] ScaleLimits scale_limits(bool on_software);

@@ -16,6 +16,7 @@
 #include "sandbox/session/drawing/session_budget.h"
 #include "sandbox/session/drawing/short_ledger.h"
 #include "sandbox/session/loading/kept_ledger.h"
+#include "sandbox/session/loading/kept_pipelines.h"
 #include "sandbox/session/program_knobs.h"
 
 namespace gloam {
@@ -81,6 +82,7 @@ Status Opening::run(const WindowNeeds& window, std::uint32_t width, std::uint32_
     pipelines_ = &session_->pipelines;
     step_ = {.what = "loading the scene"};
   }
+  make_kept_pipelines(*session_, options_);
   GLOAM_TRY(fill_session(*session_, options_, log_));
   GLOAM_TRY(ensure_captures(*session_, options_, log_, teller("capturing reflections")));
   GLOAM_TRY(ensure_particle_light(*session_, options_, log_, teller("tracing the light of particles")));
@@ -115,7 +117,7 @@ Status Opening::draw_unseen_frame(const Options& drawn) {
   GLOAM_TRY(check_shown_live(renderer, drawn.view));
   const bool on_software = session_->device->info().type == gpu::DeviceType::cpu;
   const ScaleLimits limits = scale_limits(on_software);
-  ResolutionScale automatic(limits.budget_ms, scale_);
+  ResolutionScale automatic(limits.budget, scale_);
   automatic.start(drawn.width, drawn.height, limits.first_pixels);
   const double scale = drawn.budget_ms ? view_scale(renderer.knobs()) : automatic.scale();
   ViewSettings view =
@@ -124,6 +126,7 @@ Status Opening::draw_unseen_frame(const Options& drawn) {
   session_->set_clock(drawn.time_s, 0.0);
   const ViewRequest request = {.settings = view, .target = {}, .keep_linear = false};
   GLOAM_TRY(renderer.render(session_->world, {&request, 1}));
+  keep_pipelines(*session_, options_, log_);
   GLOAM_TRY(renderer.wait());
   renderer.release_view(session_->world, kUnseenView);
   static_cast<void>(session_->zones.take());

@@ -10,7 +10,8 @@
 namespace gloam {
 namespace {
 
-constexpr double kBudget = 80.0;
+constexpr double kRest = 45.0, kMoving = 80.0;
+constexpr ResolutionScale::Budget kBudget{kRest, kMoving};
 
 /// A scene whose frames take `fixed_ms`, and `full_ms` more at scale 1.
 struct Scene {
@@ -20,9 +21,9 @@ struct Scene {
 };
 
 /// Draws frames and returns the number of changes.
-int draw(ResolutionScale& scale, const Scene& scene, int frames) {
+int draw(ResolutionScale& scale, const Scene& scene, int frames, bool moving = true) {
   int changes = 0;
-  for (int i = 0; i < frames; ++i) changes += scale.add(scene.frame_ms(scale.scale())) ? 1 : 0;
+  for (int i = 0; i < frames; ++i) changes += scale.add(scene.frame_ms(scale.scale()), moving) ? 1 : 0;
   return changes;
 }
 
@@ -49,7 +50,7 @@ TEST(ResolutionScaleTest, finds_a_scale_within_the_budget_and_stays_there) {
       ResolutionScale scale(kBudget, 0.0);
       scale.start(1280, 720, most_pixels);
       EXPECT_LE(draw(scale, scene, 60), 6);
-      EXPECT_LE(scene.frame_ms(scale.scale()), kBudget) << scene.full_ms;
+      EXPECT_LE(scene.frame_ms(scale.scale()), kMoving) << scene.full_ms;
       EXPECT_LE(draw(scale, scene, 300), 1) << "it must not swing";
       if (scene.full_ms == 20.0) {
         EXPECT_EQ(scale.scale(), 1.0);
@@ -58,12 +59,30 @@ TEST(ResolutionScaleTest, finds_a_scale_within_the_budget_and_stays_there) {
   }
 }
 
+TEST(ResolutionScaleTest, a_camera_at_rest_has_a_budget_of_its_own) {
+  const Scene slow{10.0, 500.0};
+  ResolutionScale rest(kBudget, 0.0);
+  rest.start(1280, 720, 110000.0);
+  draw(rest, slow, 60, false);
+  EXPECT_LE(slow.frame_ms(rest.scale()), kRest);
+  // Frames at rest that take half of the time of moving ones: one scale serves both.
+  ResolutionScale both(kBudget, 0.0);
+  both.start(1280, 720, 110000.0);
+  draw(both, slow, 60, true);
+  int changes = 0;
+  for (int i = 0; i < 20; ++i) {
+    changes += draw(both, {0.5 * slow.fixed_ms, 0.5 * slow.full_ms}, 20, false);
+    changes += draw(both, slow, 20, true);
+  }
+  EXPECT_EQ(changes, 0);
+}
+
 TEST(ResolutionScaleTest, a_single_slow_frame_changes_nothing) {
   ResolutionScale scale(kBudget, 0.0);
   scale.start(1280, 720, 110000.0);
   draw(scale, {}, 60);
   const double before = scale.scale();
-  scale.add(1000.0);
+  scale.add(1000.0, true);
   EXPECT_EQ(draw(scale, {}, 20), 0);
   EXPECT_EQ(scale.scale(), before);
 }
