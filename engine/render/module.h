@@ -171,6 +171,8 @@ class Module {
   /// Whether these casters need simplified indices (GpuPrimitive::simplified_index_count), which are made when first
   /// needed. Called like needs_casters.
   [[nodiscard]] virtual bool needs_simplified_casters(const World&, const KnobRegistry&) const { return false; }
+  /// Whether casters may be drawn with fewer triangles (Caster::levels). Called like needs_casters.
+  [[nodiscard]] virtual bool needs_caster_levels(const World&, const KnobRegistry&) const { return false; }
   /// Whether the module's passes read GeometryOutputs::motion. Called like needs_casters; views that do not demand the
   /// module get no motion for it.
   [[nodiscard]] virtual bool needs_motion(const World&, const KnobRegistry&) const { return false; }

@@ -142,6 +142,8 @@ struct RenderView : ViewProjection {
   /// Added to the mip that textures of surfaces are sampled from, ≤ 0: 0 if the picture has the view's size; log2 of
   /// the view's share of its size if accumulation enlarges it, so that textures are as sharp as its pixels.
   float mip_bias = 0.0f;
+  /// Greatest error of the levels of detail that the view draws (scene.lod_pixels), in its pixels; 0: it draws none.
+  float lod_pixels = 0.0f;
   /// The view's camera in the world's previous drawn frame, with the jitter of this frame, so that motion is without
   /// jitter. If there is none (has_previous), the current camera. There is none after a camera cut, and if the world's
   /// previous frame did not draw the view.

@@ -10,8 +10,8 @@ void add_shadow_knobs(KnobRegistry& registry) {
   add_knobs(registry, "shadows", kShadowMode, kShadowClassify, kShadowFilter, kShadowKernel, kShadowNear,
             kShadowNearDirections, kShadowMips, kShadowMipOperator, kSquareShadowKernel, kShadowReceiverPlane,
             kShadowTerminator, kShadowDepth16, kOrientedShadowBias, kSubsurfaceBacks, kShadowBiasMm, kShadowBiasUnits,
-            kVisibilityLevels, kShadowAtlas, kShadowTexelsPerPixel, kSimplifiedCasters, kShadowSlotLimit,
-            kShadowPairLimit, kShadowReuse, kShadowEarlyOuts);
+            kVisibilityLevels, kShadowAtlas, kShadowTexelsPerPixel, kSimplifiedCasters, kShadowLodTexels,
+            kShadowSlotLimit, kShadowPairLimit, kShadowReuse, kShadowEarlyOuts);
 }
 
 ShadowKnobs shadow_knobs(const KnobRegistry& registry) {
@@ -35,6 +35,7 @@ ShadowKnobs shadow_knobs(const KnobRegistry& registry) {
   knobs.atlas_size = registry.value(kShadowAtlas);
   knobs.texels_per_pixel = static_cast<float>(registry.value(kShadowTexelsPerPixel));
   knobs.simplified = registry.value(kSimplifiedCasters);
+  knobs.lod_texels = static_cast<float>(registry.value(kShadowLodTexels));
   knobs.near = registry.value(kShadowNear);
   knobs.near_directions = registry.value(kShadowNearDirections);
   knobs.thin_filter = registry.try_value(kGrassShadowFilter).value_or(0);

@@ -154,6 +154,18 @@ inline constexpr ChoiceKnob<bool> kSimplifiedCasters{
     .meaning = "triangles drawn into shadow maps: all of them, or a simplified mesh with fewer",
     .choices = {{"full", false}, {"simplified", true}},
     .only_with = "shadows.mode=monolithic|deferred"};
+inline constexpr NumberKnob kShadowLodTexels{
+    .name = "shadows.lod_texels",
+    .meaning =
+        "greatest distance between the triangles drawn into a shadow map and all triangles of a caster, in texels of "
+        "the "
+        "map, where the scene has more than 131,072 triangles; 0: all triangles are drawn",
+    .max = 2.0,
+    .default_value = 0.25,
+    .exact = 0.0,
+    .unit = "texels",
+    .ledger_values = {0.0, 0.125, 0.25, 0.5, 1.0},
+    .only_with = "shadows.mode=monolithic|deferred"};
 inline constexpr std::uint32_t kMostSlotsAndPairs = 4194301;
 inline constexpr IntegerKnob<std::uint32_t> kShadowSlotLimit{
     .name = "shadows.slot_limit",
@@ -197,6 +209,7 @@ struct ShadowKnobs {
   std::uint32_t atlas_size = 4096;
   float texels_per_pixel = 3.0f;
   bool simplified = false;  ///< casters are drawn with their simplified triangles
+  float lod_texels = 0.0f;  ///< greatest error of casters' levels of detail; 0: there are none
   std::uint32_t near = 1;   ///< estimate of near blockers: 0 off, 1 wide, 2 all
   std::uint32_t near_directions = 16;
   bool terminator = false;        ///< smooth-shaded surfaces are judged at their smooth surface

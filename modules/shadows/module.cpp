@@ -78,6 +78,11 @@ class ShadowsModule final : public Module {
     return shadow_knobs(knobs).simplified;
   }
 
+  [[nodiscard]] bool needs_caster_levels(const World&, const KnobRegistry& knobs) const override {
+    const ShadowKnobs settings = shadow_knobs(knobs);
+    return settings.enabled && settings.lod_texels > 0.0f;
+  }
+
   [[nodiscard]] bool needs_smooth_surfaces(const World&, const KnobRegistry& knobs) const override {
     const ShadowKnobs settings = shadow_knobs(knobs);
     return settings.enabled && settings.terminator;
@@ -164,6 +169,7 @@ class ShadowsModule final : public Module {
     sink.count("shadows.faces_in_turn", counts.in_turn);
     sink.count("shadows.faces_skipped", counts.skipped);
     sink.count("shadows.texels_drawn", static_cast<double>(counts.texels));
+    sink.count("shadows.triangles_drawn", static_cast<double>(counts.triangles));
     sink.count("shadows.faces_shrunk", view_faces.faces_shrunk);
     sink.count("shadows.faces_at_limit", view_faces.faces_at_limit);
     sink.count("shadows.faces_left_out", view_faces.faces_left_out);

@@ -135,6 +135,7 @@ ViewId owner_of_captures(const ShadowKnobs& knobs) {
                                  .value(std::bit_cast<std::uint32_t>(knobs.bias_units))
                                  .value(knobs.mip_operator)
                                  .value(knobs.simplified)
+                                 .value(std::bit_cast<std::uint32_t>(knobs.lod_texels))
                                  .digest();
   return ViewId{0x80000000u | static_cast<std::uint32_t>(hash)};
 }

@@ -28,7 +28,11 @@ struct Caster {
   dmat4 world_from_mesh = dmat4(1.0);  ///< skinned: only the translation to the origin of the skinned vertices
   dvec3 bounds_min = dvec3(0.0);       ///< world
   dvec3 bounds_max = dvec3(0.0);       ///< world; less than bounds_min if unknown: the caster may be anywhere
-  double emissive_reach_m = 0.0;       ///< half_diagonal() of a rigid, emissive caster; 0 for all others
+  /// Number of the levels of detail that may be drawn in place of all triangles (GpuPrimitive::levels), and the
+  /// greatest distance of each from the full surface.
+  std::uint32_t levels = 0;
+  LevelErrors level_errors_m{};
+  double emissive_reach_m = 0.0;  ///< half_diagonal() of a rigid, emissive caster; 0 for all others
 };
 
 /// Casters, ordered by entity index, then by primitive.

@@ -3,6 +3,7 @@
 #include "engine/render/draws/draw_lists.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <tuple>
 
@@ -66,6 +67,19 @@ float nearest_depth(const RenderView& view, const Aabb& relative) {
   return glm::dot(forward, relative.center()) - glm::dot(glm::abs(forward), relative.half_extent());
 }
 
+/// The shortest distance at this view depth that may be a pixel wide in the picture, in any direction; ≤ 0 behind the
+/// camera.
+float metres_per_pixel(const RenderView& view, float depth_m) {
+  // Without jitter, so that a view at rest draws the same levels in all frames.
+  const mat4& clip = view.jittered ? view.unmoved.clip_from_view : view.clip_from_view;
+  const float pixels = 0.5f * std::max(std::abs(clip[0][0]) * static_cast<float>(view.width),
+                                       std::abs(clip[1][1]) * static_cast<float>(view.height));
+  if (view.camera.orthographic) return 1.0f / pixels;
+  // Toward a corner of the picture, motion along the view's axis shows, too.
+  const vec2 corner = (1.0f + glm::abs(vec2(clip[2]))) / glm::abs(vec2(clip[0][0], clip[1][1]));
+  return depth_m / (pixels * std::sqrt(1.0f + glm::dot(corner, corner)));
+}
+
 Aabb relative_to(const WorldBox& box, const dvec3& origin) { return {vec3(box.min - origin), vec3(box.max - origin)}; }
 
 bool is_mirroring(const dmat4& matrix) { return glm::determinant(glm::dmat3(matrix)) < 0.0; }
@@ -82,12 +96,13 @@ bool may_see(const RenderView& view, const Aabb& relative) {
 /// Adds the draws, deform jobs and casters of one instance to the lists.
 class InstanceDrawer {
  public:
-  InstanceDrawer(const World& world, std::span<const RenderView* const> views, const GpuScene& scene, bool with_casters)
+  InstanceDrawer(const World& world, std::span<const RenderView* const> views, const GpuScene& scene,
+                 const DrawListContents& contents)
       : views_(views),
         scene_(scene),
         joints_(world.resource<JointMatrices>()),
         weights_(world.resource<MorphWeights>().values),
-        with_casters_(with_casters) {}
+        contents_(contents) {}
 
   /// lists.views: one per view.
   void draw(const Instance& instance, FrameDraws& lists) const {
@@ -115,11 +130,11 @@ class InstanceDrawer {
   }
 
   [[nodiscard]] bool casts(const Instance& instance, const GpuPrimitive& primitive) const {
-    return with_casters_ && instance.casts && scene_.material(primitive.material).alpha_mode != AlphaMode::blend;
+    return contents_.casters && instance.casts && scene_.material(primitive.material).alpha_mode != AlphaMode::blend;
   }
 
   void cast(Entity entity, const GpuPrimitive& primitive, const dmat4& world_from_mesh, bool flipped,
-            const WorldBox& box, std::uint32_t deform, FrameDraws& lists) const {
+            const WorldBox& box, std::uint32_t deform, const JointMatrices::Range* joints, FrameDraws& lists) const {
     const GpuMaterial& material = scene_.material(primitive.material);
     Caster caster;
     caster.entity = entity;
@@ -136,7 +151,45 @@ class InstanceDrawer {
     caster.bounds_max = bounds.max;
     if (material.emissive && deform == kNone)
       caster.emissive_reach_m = half_diagonal(primitive.bounds, world_from_mesh);
+    if (contents_.caster_levels && material.alpha_mode == AlphaMode::opaque) add_levels(caster, joints);
     lists.casters.casters.push_back(caster);
+  }
+
+  /// The error of each level in metres. joints: null for rigid vertices.
+  [[nodiscard]] LevelErrors errors_m(const DetailLevels& levels, const JointMatrices::Range* joints,
+                                     const dmat4& world_from_mesh) const {
+    LevelErrors errors{};
+    const std::size_t count = levels.levels.size();
+    if (count == 0) return errors;
+    if (joints != nullptr) {
+      posed_errors(levels, std::span(joints_.matrices).subspan(joints->first, joints->count),
+                   std::span(errors).first(count));
+      return errors;
+    }
+    const auto scale = static_cast<float>(greatest_scale(glm::dmat3(world_from_mesh)));
+    for (std::size_t l = 0; l < count; ++l) errors[l] = scale * levels.levels[l].error;
+    return errors;
+  }
+
+  /// The coarsest level whose error the view shows as at most RenderView::lod_pixels; null: all triangles. bounds: of
+  /// the drawn vertices, relative to the view's position.
+  [[nodiscard]] const DetailLevel* level_of(const RenderView& view, const GpuPrimitive& primitive, const Aabb& bounds,
+                                            const JointMatrices::Range* joints, const dmat4& world_from_mesh) const {
+    const DetailLevels& levels = primitive.levels(LevelUse::views);
+    if (view.lod_pixels <= 0.0f || levels.levels.empty()) return nullptr;
+    if (scene_.material(primitive.material).alpha_mode != AlphaMode::opaque) return nullptr;
+    const float most_m = view.lod_pixels * metres_per_pixel(view, nearest_depth(view, bounds));
+    const LevelErrors errors = errors_m(levels, joints, world_from_mesh);
+    const DetailLevel* chosen = nullptr;
+    for (std::size_t l = 0; l < levels.levels.size() && errors[l] <= most_m; ++l) chosen = &levels.levels[l];
+    return chosen;
+  }
+
+  /// joints: of a skinned caster.
+  void add_levels(Caster& caster, const JointMatrices::Range* joints) const {
+    const DetailLevels& levels = caster.primitive->levels(LevelUse::maps);
+    caster.levels = static_cast<std::uint32_t>(levels.levels.size());
+    caster.level_errors_m = errors_m(levels, joints, caster.world_from_mesh);
   }
 
   /// Bounds of the deformed vertices; unknown if a joint or a weight is missing or not finite. `world_from_mesh`: the
@@ -195,7 +248,7 @@ class InstanceDrawer {
   void draw_rigid(const Instance& instance, const GpuPrimitive& primitive, FrameDraws& lists) const {
     if (casts(instance, primitive))
       cast(instance.entity, primitive, instance.matrix, is_mirroring(instance.matrix),
-           world_box(primitive.bounds, instance.matrix), kNone, lists);
+           world_box(primitive.bounds, instance.matrix), kNone, nullptr, lists);
     for (std::size_t v = 0; v < views_.size(); ++v)
       if (shows(*views_[v], instance)) draw_clusters(*views_[v], instance, primitive, lists.views[v]);
   }
@@ -211,10 +264,14 @@ class InstanceDrawer {
     }
     Draw draw = start(view, instance.entity, primitive, constants, (constants.flags & GLOAM_DRAW_MIRRORED) != 0);
     draw.bounds = whole;
-    for (const Cluster& cluster : primitive.clusters) {
-      const Aabb bounds = primitive.clusters.size() == 1 ? whole : transformed(cluster.bounds, matrix);
-      if (primitive.clusters.size() > 1 && !may_see(view, bounds)) continue;
-      const std::uint32_t first = primitive.first_index + cluster.first_index;
+    const DetailLevel* const level = level_of(view, primitive, whole, nullptr, instance.matrix);
+    const std::vector<Cluster>& clusters = level != nullptr ? level->clusters : primitive.clusters;
+    const std::uint32_t start_index =
+        level != nullptr ? primitive.levels(LevelUse::views).first_index + level->first_index : primitive.first_index;
+    for (const Cluster& cluster : clusters) {
+      const Aabb bounds = clusters.size() == 1 ? whole : transformed(cluster.bounds, matrix);
+      if (clusters.size() > 1 && !may_see(view, bounds)) continue;
+      const std::uint32_t first = start_index + cluster.first_index;
       if (draw.index_count == 0 || draw.first_index + draw.index_count != first) {
         if (draw.index_count > 0) add(view, draw, whole, draws);
         draw.first_index = first;
@@ -237,7 +294,8 @@ class InstanceDrawer {
     const WorldBox box = deformed_box(instance, primitive, skinned, morphed, matrix);
     const auto deform = static_cast<std::uint32_t>(lists.deforms.size());
     bool deformed = casts(instance, primitive);
-    if (deformed) cast(instance.entity, primitive, matrix, flipped, box, deform, lists);
+    if (deformed)
+      cast(instance.entity, primitive, matrix, flipped, box, deform, skinned ? instance.joints : nullptr, lists);
     for (std::size_t v = 0; v < views_.size(); ++v) {
       const RenderView& view = *views_[v];
       if (!shows(view, instance)) continue;
@@ -251,10 +309,14 @@ class InstanceDrawer {
       }
       deformed = true;
       Draw draw = start(view, instance.entity, primitive, constants, flipped);
-      draw.first_index = primitive.first_index;
+      const DetailLevel* const level =
+          box.known() && skinned && !morphed ? level_of(view, primitive, bounds, instance.joints, matrix) : nullptr;
+      draw.first_index =
+          level != nullptr ? primitive.levels(LevelUse::views).first_index + level->first_index : primitive.first_index;
       draw.deform = deform;
       if (box.known()) draw.bounds = bounds;
-      lengthen(draw, draw.first_index, primitive.index_count, draw.bounds, lists.views[v]);
+      lengthen(draw, draw.first_index, level != nullptr ? level->index_count : primitive.index_count, draw.bounds,
+               lists.views[v]);
       add(view, draw, bounds, lists.views[v]);
     }
     if (deformed) lists.deforms.push_back(deform_job(instance, primitive, skinned, morphed));
@@ -278,7 +340,7 @@ class InstanceDrawer {
   const GpuScene& scene_;
   const JointMatrices& joints_;
   std::span<const float> weights_;
-  bool with_casters_;
+  DrawListContents contents_;
 };
 
 void append(FrameDraws& all, FrameDraws& part) {
@@ -329,9 +391,9 @@ shaders::DrawConstants draw_constants(const dmat4& world_from_mesh, const dvec3&
 }
 
 FrameDraws build_frame_draws(const World& world, std::span<const RenderView* const> views, const GpuScene& scene,
-                             JobExecutor& executor, bool with_casters) {
+                             JobExecutor& executor, const DrawListContents& contents) {
   const std::vector<Instance> instances = gather_instances(world, views, scene);
-  const InstanceDrawer drawer(world, views, scene, with_casters);
+  const InstanceDrawer drawer(world, views, scene, contents);
   constexpr std::size_t kGrain = 64;
   std::vector<FrameDraws> parts((instances.size() + kGrain - 1) / kGrain);
   executor.parallel_for(instances.size(), kGrain, [&](JobRange range) {

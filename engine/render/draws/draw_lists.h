@@ -57,7 +57,7 @@ struct FrameDraws {
   std::vector<ViewDraws> views;
   std::vector<DeformJob> deforms;
   std::uint32_t deformed_vertices = 0;
-  CasterList casters;  ///< empty unless with_casters
+  CasterList casters;  ///< empty unless DrawListContents::casters
 };
 
 /// The world matrix of a primitive's positions, which are relative to GpuPrimitive::origin.
@@ -66,9 +66,16 @@ struct FrameDraws {
 /// Push constants that draw a mesh relative to `origin` (world). Composed in double.
 [[nodiscard]] shaders::DrawConstants draw_constants(const dmat4& world_from_mesh, const dvec3& origin);
 
+/// What a frame's draw lists hold besides the draws of views.
+struct DrawListContents {
+  bool casters = false;        ///< all shadow casters, in a view or not, with jobs that deform them
+  bool caster_levels = false;  ///< with Caster::levels
+};
+
 /// Culls every MeshInstance of the world against each view, in jobs. The result does not depend on the number of
-/// threads. `with_casters`: also lists all shadow casters, in a view or not, with jobs that deform them.
+/// threads.
 [[nodiscard]] FrameDraws build_frame_draws(const World& world, std::span<const RenderView* const> views,
-                                           const GpuScene& scene, JobExecutor& executor, bool with_casters = false);
+                                           const GpuScene& scene, JobExecutor& executor,
+                                           const DrawListContents& contents = {});
 
 }  // namespace gloam

@@ -10,10 +10,12 @@
 #include <utility>
 
 #include "engine/core/zones.h"
+#include "engine/render/draws/levels.h"
 #include "engine/render/frame/attempt.h"
 #include "engine/render/frame/stages.h"
 #include "engine/render/kept_frames/digest_commands.h"
 #include "engine/render/report/oversights.h"
+#include "engine/render/scene/scene_triangles.h"
 #include "engine/render/views/seen_surfaces.h"
 #include "engine/scene/resources.h"
 
@@ -32,8 +34,21 @@ class Drawing {
   bool& flag_;
 };
 
+/// Makes the levels of detail that the frame may draw.
+Status make_levels(Frame& frame, const SceneAssets& assets, GpuScene& scene, const RendererParts& parts) {
+  frame.caster_levels = frame.any_needs(parts.modules, &Module::needs_caster_levels);
+  frame.view_levels =
+      std::ranges::any_of(frame.views, [&](const FrameView& own) { return lod_pixels(frame.knobs_of(own)) > 0.0f; });
+  if (!frame.caster_levels && !frame.view_levels) return {};
+  if (instance_triangles(frame.world, scene) < kFewestTrianglesForLevels)
+    frame.caster_levels = frame.view_levels = false;
+  if (frame.caster_levels) GLOAM_TRY(scene.make_levels(assets, *parts.options.executor, LevelUse::maps));
+  if (frame.view_levels) GLOAM_TRY(scene.make_levels(assets, *parts.options.executor, LevelUse::views));
+  return {};
+}
+
 /// Before the device's frame: brings the world's assets to the GPU, or finds what has changed.
-Status sync_assets(const Frame& frame, RendererParts& parts) {
+Status sync_assets(Frame& frame, RendererParts& parts) {
   const SceneAssets& assets = frame.world.resource<SceneAssets>();
   GpuScene& scene = parts.worlds.scene_of(frame.world);
   MeshesInUse in_use = meshes_in_use(frame.world);
@@ -41,7 +56,7 @@ Status sync_assets(const Frame& frame, RendererParts& parts) {
   GLOAM_TRY(scene.sync(assets, *parts.options.executor, std::move(in_use)));
   if (frame.any_needs(parts.modules, &Module::needs_simplified_casters))
     GLOAM_TRY(scene.simplify_casters(assets, *parts.options.executor));
-  return {};
+  return make_levels(frame, assets, scene, parts);
 }
 
 /// Makes the draw lists of all views.
@@ -59,8 +74,9 @@ Status build_draws(Frame& frame, RendererParts& parts) {
   scene.add_pass(parts.resources.graph);
   std::vector<const RenderView*> views;
   for (const FrameView& own : frame.views) views.push_back(own.view.get());
-  frame.draws = build_frame_draws(frame.world, views, scene, *parts.options.executor,
-                                  frame.any_needs(parts.modules, &Module::needs_casters));
+  frame.draws = build_frame_draws(
+      frame.world, views, scene, *parts.options.executor,
+      {.casters = frame.any_needs(parts.modules, &Module::needs_casters), .caster_levels = frame.caster_levels});
   for (std::size_t i = 0; i < frame.views.size(); ++i) {
     const auto& geometry = frame.views[i].request.geometry;
     if (geometry && !geometry->desc().draws_meshes) frame.draws.views[i] = {};

@@ -62,6 +62,8 @@ struct Frame {
   const KnobRegistry& knobs;                              ///< without overrides of views
   const Redraw* redraw;                                   ///< null: the frame is no redraw
   std::vector<FrameView> views;                           ///< in the order in which they are drawn
+  bool caster_levels = false;                             ///< casters may be drawn with fewer triangles
+  bool view_levels = false;                               ///< so may meshes in views with RenderView::lod_pixels
   FrameDraws draws;                                       ///< by view
   Board shared;                                           ///< FrameBuilder::shared
   std::vector<std::unique_ptr<FrameBuilder>> builders;    ///< by view; those whose passes are declared

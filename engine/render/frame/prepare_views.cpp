@@ -7,6 +7,7 @@
 
 #include "engine/render/camera/jitter.h"
 #include "engine/render/camera/light_scale.h"
+#include "engine/render/draws/levels.h"
 #include "engine/render/frame/attempt.h"
 #include "engine/render/frame/stages.h"
 
@@ -94,6 +95,7 @@ Status prepare_views(Frame& frame, RendererParts& parts) {
     own.view->main_view = own.main.value_or(settings.id);
     own.view->has_companions = own.has_companions;
     own.view->paced = !parts.budgets.empty();
+    if (frame.view_levels) own.view->lod_pixels = lod_pixels(frame.knobs_of(own));
     own.view->light_scale = light_scale_of(frame, own, parts.views);
   }
   for (const bool companions : {false, true})

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/render/draws/culling.h"
+#include "engine/render/draws/levels.h"
 #include "engine/scene/systems.h"
 
 namespace gloam {
@@ -20,7 +21,7 @@ RendererParts::RendererParts(RendererOptions given)
       views(*options.device) {
   add_scene_systems(schedule);
   modules.add_to(knobs.set, schedule);
-  add_knobs(knobs.set, "scene", kCulling, kFrameReuse);
+  add_knobs(knobs.set, "scene", kCulling, kFrameReuse, kLodPixels);
 }
 
 RendererParts::~RendererParts() {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/math/bounds.h"
+#include "engine/render/packing/detail_level.h"
 #include "engine/render/packing/mesh_packing.h"
 #include "engine/scene/assets.h"
 
@@ -37,10 +38,13 @@ struct GpuPrimitive {
   dvec3 origin = dvec3(0.0);  ///< point of the mesh that positions and bounds are relative to
   Aabb bounds;
   std::vector<Cluster> clusters;
+  LevelsByUse detail;  ///< made when first needed (GpuScene::make_levels)
   /// Joint index and rest bounds of the vertices that follow the joint. The union of the posed boxes bounds the posed
   /// surface.
   std::vector<std::pair<std::uint32_t, Aabb>> joint_bounds;
   std::vector<Aabb> morph_bounds;  ///< bounds of the offsets of each target
+
+  [[nodiscard]] const DetailLevels& levels(LevelUse use) const { return detail[static_cast<std::size_t>(use)]; }
 };
 
 }  // namespace gloam

@@ -105,12 +105,11 @@ std::vector<float> pack_morph_offsets(const Primitive& primitive, bool& has_norm
   return offsets;
 }
 
-std::vector<Cluster> build_clusters(const Primitive& primitive, std::vector<std::uint32_t>& indices) {
-  indices = primitive.indices;
+std::vector<Cluster> sort_into_clusters(std::span<const vec3> positions, std::vector<std::uint32_t>& indices) {
   if (indices.size() > 3 * kClusterTriangles) {
     std::vector<std::uint32_t> sorted(indices.size());
-    meshopt_spatialSortTriangles(sorted.data(), indices.data(), indices.size(), &primitive.positions[0].x,
-                                 primitive.positions.size(), sizeof(vec3));
+    meshopt_spatialSortTriangles(sorted.data(), indices.data(), indices.size(), &positions[0].x, positions.size(),
+                                 sizeof(vec3));
     indices = std::move(sorted);
   }
   std::vector<Cluster> clusters;
@@ -118,10 +117,15 @@ std::vector<Cluster> build_clusters(const Primitive& primitive, std::vector<std:
     Cluster cluster;
     cluster.first_index = static_cast<std::uint32_t>(first);
     cluster.index_count = static_cast<std::uint32_t>(std::min(3 * kClusterTriangles, indices.size() - first));
-    for (std::size_t i = 0; i < cluster.index_count; ++i) cluster.bounds.grow(primitive.positions[indices[first + i]]);
+    for (std::size_t i = 0; i < cluster.index_count; ++i) cluster.bounds.grow(positions[indices[first + i]]);
     clusters.push_back(cluster);
   }
   return clusters;
+}
+
+std::vector<Cluster> build_clusters(const Primitive& primitive, std::vector<std::uint32_t>& indices) {
+  indices = primitive.indices;
+  return sort_into_clusters(primitive.positions, indices);
 }
 
 std::vector<std::uint32_t> fetch_order(std::size_t vertex_count, std::span<std::uint32_t> indices,

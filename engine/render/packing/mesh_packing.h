@@ -52,6 +52,9 @@ inline constexpr std::size_t kClusterTriangles = 256;
 [[nodiscard]] std::vector<float> pack_morph_offsets(const Primitive& primitive, bool& has_normals);
 /// Sorts triangles in space and cuts them into clusters of kClusterTriangles. Writes the sorted triangles to `indices`.
 [[nodiscard]] std::vector<Cluster> build_clusters(const Primitive& primitive, std::vector<std::uint32_t>& indices);
+/// The same for triangles that are in `indices` already.
+[[nodiscard]] std::vector<Cluster> sort_into_clusters(std::span<const vec3> positions,
+                                                      std::vector<std::uint32_t>& indices);
 /// Renumbers vertices in the order in which `indices` first use them, and changes `indices` to match. Returns the new
 /// number of each old vertex, kNone for unused vertices. `count`: number of used vertices.
 [[nodiscard]] std::vector<std::uint32_t> fetch_order(std::size_t vertex_count, std::span<std::uint32_t> indices,

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "engine/render/packing/merged_mesh.h"
 #include "engine/render/packing/mesh_packing.h"
 
 namespace gloam {
@@ -18,27 +19,16 @@ constexpr std::size_t kFewestIndices =
 
 std::vector<std::uint32_t> simplified_indices(std::span<const vec3> positions, std::span<const std::uint32_t> indices) {
   if (indices.size() < kFewestIndices) return {};
-  std::vector<std::uint32_t> merged(indices.size());
-  meshopt_generateShadowIndexBuffer(merged.data(), indices.data(), indices.size(), &positions[0].x, positions.size(),
-                                    sizeof(vec3), sizeof(vec3));
-  // The simplifier treats vertices at one position as a seam, even unused ones, so it gets only the used vertices.
-  std::uint32_t count = 0;
-  const std::vector<std::uint32_t> place = fetch_order(positions.size(), merged, count);
-  std::vector<vec3> used(count);
-  std::vector<std::uint32_t> original(count);
-  for (std::uint32_t v = 0; v < place.size(); ++v) {
-    if (place[v] == kNone) continue;
-    used[place[v]] = positions[v];
-    original[place[v]] = v;
-  }
-  const float side = meshopt_simplifyScale(&used[0].x, used.size(), sizeof(vec3));
+  const MergedMesh merged = merged_by_position(positions, indices);
+  const std::size_t vertices = merged.positions.size();
+  const float side = meshopt_simplifyScale(&merged.positions[0].x, vertices, sizeof(vec3));
   if (!(side > 0.0f)) return {};
   const float error = std::max(kSimplifiedShare, kSimplifiedError_m / side);
   std::vector<std::uint32_t> fewer(indices.size());
-  fewer.resize(meshopt_simplify(fewer.data(), merged.data(), merged.size(), &used[0].x, used.size(), sizeof(vec3), 0,
-                                error, meshopt_SimplifyLockBorder, nullptr));
+  fewer.resize(meshopt_simplify(fewer.data(), merged.indices.data(), merged.indices.size(), &merged.positions[0].x,
+                                vertices, sizeof(vec3), 0, error, meshopt_SimplifyLockBorder, nullptr));
   if (fewer.size() > indices.size() / 10 * 9) return {};
-  for (std::uint32_t& index : fewer) index = original[index];
+  for (std::uint32_t& index : fewer) index = merged.original[index];
   return fewer;
 }
 

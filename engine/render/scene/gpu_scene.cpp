@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/core/assert.h"
+#include "engine/render/packing/make_levels.h"
 #include "engine/render/packing/mip_chain.h"
 #include "engine/render/packing/simplified_casters.h"
 #include "engine/scene/assets/check.h"
@@ -45,6 +46,7 @@ void GpuScene::release() {
   version_ = 0;
   smooth_primitives_ = left_ = 0;
   simplification_left_ = false;
+  levels_left_ = {};
   waiting_ = copies_ = removed_ = false;
 }
 
@@ -159,6 +161,7 @@ void GpuScene::show_mesh(std::uint32_t mesh, std::vector<PackedPrimitive>&& prim
     packed.primitive.content = ++contents_;
     smooth_primitives_ += packed.primitive.smooth_shaded ? 1 : 0;
     simplification_left_ = simplification_left_ || !packed.primitive.simplification_tried;
+    levels_left_.fill(true);
     meshes_[mesh].push_back(std::move(packed.primitive));
   }
 }
@@ -198,6 +201,37 @@ Status GpuScene::simplify_casters(const SceneAssets& assets, JobExecutor& execut
     job.parts.push_back(MeshStreams::simplified_part(*primitives[i].second, made[i]));
   }
   uploads_.add(std::move(job));
+  return {};
+}
+
+Status GpuScene::make_levels(const SceneAssets& assets, JobExecutor& executor, LevelUse use) {
+  GLOAM_ASSERT(version_ == assets.version, "the assets that sync has found get levels");
+  const auto number = static_cast<std::size_t>(use);
+  if (!std::exchange(levels_left_[number], false)) return {};
+  std::vector<std::pair<const Primitive*, GpuPrimitive*>> primitives;
+  for (std::uint32_t m = 0; m < meshes_.size(); ++m) {
+    const bool current = mesh_progress_[m].shown == assets.revision(AssetKind::mesh, m);
+    for (std::size_t p = 0; current && p < meshes_[m].size(); ++p) {
+      GpuPrimitive& primitive = meshes_[m][p];
+      if (std::exchange(primitive.detail[number].tried, true)) continue;
+      if (material(primitive.material).alpha_mode == AlphaMode::opaque)
+        primitives.emplace_back(&assets.meshes[m].primitives[p], &primitive);
+    }
+  }
+  std::vector<MadeLevels> made(primitives.size());
+  executor.parallel_for(primitives.size(), 1, [&](JobRange range) {
+    for (std::size_t i = range.begin; i < range.end; ++i) made[i] = gloam::make_levels(*primitives[i].first, use);
+  });
+  AssetUploads::Job job{.number = kNoAsset, .parts = {}, .image = {}, .texels = {}, .urgent = true};
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    if (made[i].indices.empty()) continue;
+    DetailLevels& levels = primitives[i].second->detail[number];
+    levels = std::move(made[i].levels);
+    levels.tried = true;
+    streams_.place_levels(levels, false);
+    job.parts.push_back(MeshStreams::levels_part(levels, made[i].indices));
+  }
+  if (!job.parts.empty()) uploads_.add(std::move(job));
   return {};
 }
 

@@ -60,6 +60,8 @@ class GpuScene {
   /// Gives opaque rigid primitives a second range of indices with fewer triangles (simplified_casters.h), each once.
   /// `assets`: those of the last sync. Between sync() and stage().
   [[nodiscard]] Status simplify_casters(const SceneAssets& assets, JobExecutor& executor);
+  /// Gives opaque primitives their levels for this use (packing/make_levels.h), each once. As simplify_casters().
+  [[nodiscard]] Status make_levels(const SceneAssets& assets, JobExecutor& executor, LevelUse use);
   /// Splits triangles that are too large for their distance from an eye (refined_triangles.h), for the instances of
   /// this frame. eyes: in the world, of all views. nearest: nothing nearer to an eye is drawn. `world`: with the assets
   /// of the last sync. Between sync() and stage().
@@ -116,7 +118,7 @@ class GpuScene {
     PackedAsset asset;  ///< without the data that was given to the uploads
     gpu::ImageHandle image;
   };
-  static constexpr std::uint64_t kNoAsset = 0;  ///< number of uploads of constants and simplified indices
+  static constexpr std::uint64_t kNoAsset = 0;  ///< number of uploads of constants, simplified indices and levels
   /// Numbers of meshes, materials, textures and images that were seen.
   using Sizes = std::array<std::size_t, 4>;
   [[nodiscard]] static Sizes sizes_of(const SceneAssets& assets);
@@ -177,12 +179,13 @@ class GpuScene {
   std::uint64_t staged_count_ = 0;
   std::uint64_t contents_ = 0;  ///< GpuPrimitive::content so far
   std::size_t smooth_primitives_ = 0;
-  std::size_t left_ = 0;              ///< changed assets that are not requested yet
-  bool simplify_ = false;             ///< simplify_casters was called
-  bool simplification_left_ = false;  ///< for primitives that it has not seen
-  bool waiting_ = false;              ///< the next sync() looks for changes again
-  bool copies_ = false;               ///< the current frame has copies
-  bool removed_ = false;              ///< meshes were removed since the last compact()
+  std::size_t left_ = 0;                        ///< changed assets that are not requested yet
+  bool simplify_ = false;                       ///< simplify_casters was called
+  bool simplification_left_ = false;            ///< for primitives that it has not seen
+  std::array<bool, kLevelUses> levels_left_{};  ///< make_levels has not seen all primitives
+  bool waiting_ = false;                        ///< the next sync() looks for changes again
+  bool copies_ = false;                         ///< the current frame has copies
+  bool removed_ = false;                        ///< meshes were removed since the last compact()
   AssetPacker packer_;
 };
 

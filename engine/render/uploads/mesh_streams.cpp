@@ -71,12 +71,17 @@ void MeshStreams::place_simplified(GpuPrimitive& primitive, std::size_t count, b
   primitive.simplified_index_count = static_cast<std::uint32_t>(count);
 }
 
+void MeshStreams::place_levels(DetailLevels& levels, bool spare) {
+  levels.first_index = allocate(index_ranges_, levels.index_count, spare);
+}
+
 void MeshStreams::remove(const GpuPrimitive& primitive) {
   free(vertices_, primitive.first_vertex, primitive.vertex_count);
   free(index_ranges_, primitive.first_index, primitive.index_count);
   free(influence_ranges_, primitive.first_influence, primitive.skinned ? primitive.vertex_count : 0);
   free(morph_ranges_, primitive.first_morph, primitive.morph_floats);
   free(index_ranges_, primitive.simplified_first_index, primitive.simplified_index_count);
+  for (const DetailLevels& levels : primitive.detail) free(index_ranges_, levels.first_index, levels.index_count);
 }
 
 Status MeshStreams::fit() {
@@ -126,6 +131,7 @@ Status MeshStreams::compact(std::span<GpuPrimitive* const> primitives) {
     move(influence_ranges_, p->first_influence, p->skinned ? p->vertex_count : 0, {influences});
     move(morph_ranges_, p->first_morph, p->morph_floats, {morph_offsets});
     move(index_ranges_, p->simplified_first_index, p->simplified_index_count, {indices});
+    for (DetailLevels& levels : p->detail) move(index_ranges_, levels.first_index, levels.index_count, {indices});
   }
   for (std::uint32_t i = 0; i < kStreams; ++i) replaced_[i] = std::exchange(buffers_[i], {});
   GLOAM_TRY(fit());
@@ -163,6 +169,10 @@ void MeshStreams::record_growth(gpu::CommandList& commands) {
 AssetUploads::BufferPart MeshStreams::simplified_part(const GpuPrimitive& primitive,
                                                       const std::vector<std::uint32_t>& simplified) {
   return part_of(indices, primitive.simplified_first_index, simplified);
+}
+
+AssetUploads::BufferPart MeshStreams::levels_part(const DetailLevels& levels, const std::vector<std::uint32_t>& made) {
+  return part_of(indices, levels.first_index, made);
 }
 
 std::vector<AssetUploads::BufferPart> MeshStreams::parts(const PackedPrimitive& packed, std::uint32_t stream) {

@@ -35,6 +35,8 @@ class MeshStreams {
   void place(PackedPrimitive& packed, bool spare);
   /// The same for the simplified indices alone.
   void place_simplified(GpuPrimitive& primitive, std::size_t count, bool spare);
+  /// The same for the indices of its levels alone.
+  void place_levels(DetailLevels& levels, bool spare);
   /// Gives the ranges back. GPU frames may still read them: later copies wait for those.
   void remove(const GpuPrimitive& primitive);
   /// Makes the buffers as large as the ranges need; call it after place(). Larger buffers take the contents of those
@@ -51,6 +53,8 @@ class MeshStreams {
   [[nodiscard]] static std::vector<AssetUploads::BufferPart> parts(const PackedPrimitive& packed, std::uint32_t stream);
   [[nodiscard]] static AssetUploads::BufferPart simplified_part(const GpuPrimitive& primitive,
                                                                 const std::vector<std::uint32_t>& simplified);
+  [[nodiscard]] static AssetUploads::BufferPart levels_part(const DetailLevels& levels,
+                                                            const std::vector<std::uint32_t>& made);
   /// Bytes of the whole stream as placed.
   [[nodiscard]] std::uint64_t bytes(Stream stream) const;
   [[nodiscard]] gpu::BufferHandle buffer(Stream stream) const { return buffers_[stream]; }

@@ -24,7 +24,7 @@ std::uint64_t hash_of(const Caster& caster, std::uint64_t pose) {
   Hasher hasher;
   hasher.value(caster.primitive->first_index).value(caster.primitive->first_vertex).value(caster.primitive->material);
   hasher.value(caster.content).value(caster.cut_out_content);
-  hasher.value(caster.variant.features).value(caster.subsurface).value(pose);
+  hasher.value(caster.variant.features).value(caster.subsurface).value(caster.levels).value(pose);
   for (int column = 0; column < 4; ++column)
     for (int row = 0; row < 3; ++row) hasher.value(std::bit_cast<std::uint64_t>(caster.world_from_mesh[column][row]));
   return hasher.digest();

@@ -23,6 +23,7 @@ std::uint64_t salt_of(const FrameBuilder& frame, const ShadowKnobs& knobs) {
       .value(std::bit_cast<std::uint32_t>(knobs.bias_units))
       .value(knobs.mip_operator)
       .value(knobs.simplified)
+      .value(std::bit_cast<std::uint32_t>(knobs.lod_texels))
       .value(knobs.subsurface_backs)
       .digest();
 }
@@ -123,11 +124,10 @@ void find_draws(const CasterHistory& history, const MapInputs& inputs, DrawnFace
   };
   const bool whole = region.texels == whole_face(face.face);
   const FaceVolume volume = whole ? face_volume(face.face) : face_volume(face.face, region.texels);
-  region.draws = face_draws(volume, casters, inputs.form, withheld);
+  region.draws = face_draws(face.face, volume, casters, inputs.form, withheld);
   std::erase_if(region.draws,
                 [&](const FaceDraw& draw) { return !draws(static_cast<std::size_t>(draw.caster - casters.data())); });
-  for (const FaceDraw& draw : region.draws)
-    region.matrices.push_back(clip_from_mesh(face.face, draw.caster->world_from_mesh));
+  for (const FaceDraw& draw : region.draws) region.matrices.push_back(clip_from_mesh(face.face, draw));
   for (std::size_t i = 0; i < inputs.sources.size(); ++i) {
     const std::size_t state = casters.size() + i;
     if (draws(state) && may_see(volume, history.states()[state].box) &&
@@ -225,6 +225,10 @@ DrawnMaps plan_maps(const MapInputs& inputs, ViewMapState& kept, JobExecutor& ex
   std::erase_if(maps.backgrounds, [](const DrawnFace& face) { return face.regions.empty(); });
   for (const DrawnFace& face : maps.backgrounds)
     for (const DrawnRegion& region : face.regions) kept.counts.texels += region.texels.texels();
+  for (const std::vector<DrawnFace>* list : {&maps.backgrounds, &drawn})
+    for (const DrawnFace& face : *list)
+      for (const DrawnRegion& region : face.regions)
+        for (const FaceDraw& draw : region.draws) kept.counts.triangles += draw.index_count / 3;
   return maps;
 }
 
@@ -258,7 +262,7 @@ DrawnMaps faces_to_draw(FrameBuilder& frame, ViewMapState& kept, const ViewFaces
                          .poses = poses,
                          .sources = frame.caster_sources(),
                          .salt = salt_of(frame, knobs),
-                         .form = {knobs.simplified, knobs.subsurface_backs},
+                         .form = {knobs.simplified, knobs.subsurface_backs, knobs.lod_texels},
                          .continues_frame = continues_frame,
                          .atlas_is_empty = atlas_is_empty};
   kept.frame.number = frame.graph().frame();

@@ -48,26 +48,36 @@ bool fronts_suffice(const FaceVolume& volume, const Caster& caster) {
   return volume.clear_m <= 0.0f || distance_squared(relative) > volume.clear_m * volume.clear_m;
 }
 
-void add_clusters(const FaceVolume& volume, const Caster& caster, const CasterForm& form,
+/// Distance of the caster's nearest point from the plane through the light across its axis; 0 if unknown.
+float nearest_depth(const ShadowFace& face, const Caster& caster) {
+  if (!(caster.bounds_min.x <= caster.bounds_max.x)) return 0.0f;
+  Aabb relative{vec3(caster.bounds_min - face.origin), vec3(caster.bounds_max - face.origin)};
+  widen(relative);
+  return glm::dot(face.forward, relative.center()) - glm::dot(glm::abs(face.forward), relative.half_extent());
+}
+
+/// The caster's level that is drawn into the face; null: all triangles.
+const DetailLevel* level_of(const ShadowFace& face, const Caster& caster, const CasterForm& form) {
+  // The light in a subsurface material depends on the thickness of the body.
+  if (form.lod_texels <= 0.0f || caster.levels == 0 || caster.subsurface || is_cut_out(caster)) return nullptr;
+  const bool perspective = face.tan_half > 0.0f;
+  const float extent_m = perspective ? face.tan_half * nearest_depth(face, caster) : face.half_extent_m;
+  const float most_m = form.lod_texels * 2.0f * extent_m / static_cast<float>(face.square.size);
+  const std::vector<DetailLevel>& levels = caster.primitive->levels(LevelUse::maps).levels;
+  const DetailLevel* chosen = nullptr;
+  for (std::size_t l = 0; l < caster.levels && caster.level_errors_m[l] <= most_m; ++l) chosen = &levels[l];
+  return chosen;
+}
+
+/// Adds the clusters that the volume may see. draw: without indices. first_index: of the first cluster's first index 0.
+void add_clusters(const FaceVolume& volume, std::span<const Cluster> clusters, std::uint32_t first_index, FaceDraw draw,
                   std::vector<FaceDraw>& draws) {
-  const GpuPrimitive& primitive = *caster.primitive;
-  const bool backs = form.subsurface_backs && caster.subsurface && has_inside(caster);
-  const bool fronts = !backs && fronts_suffice(volume, caster);
-  if (form.simplified && caster.deform == kNone && primitive.simplified_index_count > 0 && !is_cut_out(caster)) {
-    draws.push_back({&caster, primitive.simplified_first_index, primitive.simplified_index_count, fronts, backs});
-    return;
-  }
-  if (caster.deform != kNone || primitive.clusters.size() <= 1) {
-    draws.push_back({&caster, primitive.first_index, primitive.index_count, fronts, backs});
-    return;
-  }
-  dmat4 relative = caster.world_from_mesh;
+  dmat4 relative = draw.caster->world_from_mesh;
   relative[3] -= dvec4(volume.origin, 0.0);
   const mat4 matrix(relative);
-  FaceDraw draw{&caster, 0, 0, fronts, backs};
-  for (const Cluster& cluster : primitive.clusters) {
+  for (const Cluster& cluster : clusters) {
     if (!may_see(volume, transformed(cluster.bounds, matrix))) continue;
-    const std::uint32_t first = primitive.first_index + cluster.first_index;
+    const std::uint32_t first = first_index + cluster.first_index;
     if (draw.index_count > 0 && draw.first_index + draw.index_count == first) {
       draw.index_count += cluster.index_count;
       continue;
@@ -77,6 +87,31 @@ void add_clusters(const FaceVolume& volume, const Caster& caster, const CasterFo
     draw.index_count = cluster.index_count;
   }
   if (draw.index_count > 0) draws.push_back(draw);
+}
+
+void add_draws(const ShadowFace& face, const FaceVolume& volume, const Caster& caster, const CasterForm& form,
+               std::vector<FaceDraw>& draws) {
+  const GpuPrimitive& primitive = *caster.primitive;
+  const bool backs = form.subsurface_backs && caster.subsurface && has_inside(caster);
+  const bool fronts = !backs && fronts_suffice(volume, caster);
+  if (form.simplified && caster.deform == kNone && primitive.simplified_index_count > 0 && !is_cut_out(caster)) {
+    draws.push_back({&caster, primitive.simplified_first_index, primitive.simplified_index_count, fronts, backs});
+    return;
+  }
+  FaceDraw draw{&caster, 0, 0, fronts, backs};
+  std::span<const Cluster> clusters = primitive.clusters;
+  std::uint32_t first_index = primitive.first_index, index_count = primitive.index_count;
+  if (const DetailLevel* const level = level_of(face, caster, form)) {
+    clusters = level->clusters;
+    const DetailLevels& levels = primitive.levels(LevelUse::maps);
+    first_index = levels.first_index + level->first_index;
+    index_count = level->index_count;
+    draw.error_m = caster.level_errors_m[static_cast<std::size_t>(level - levels.levels.data())];
+  }
+  if (caster.deform == kNone && clusters.size() > 1) return add_clusters(volume, clusters, first_index, draw, draws);
+  draw.first_index = first_index;
+  draw.index_count = index_count;
+  draws.push_back(draw);
 }
 
 }  // namespace
@@ -156,14 +191,30 @@ mat4 clip_from_mesh(const ShadowFace& face, const dmat4& world_from_mesh) {
   return projection_of(face).clip_from(world_from_mesh);
 }
 
+mat4 clip_from_mesh(const ShadowFace& face, const FaceDraw& draw) {
+  dmat4 matrix = draw.caster->world_from_mesh;
+  if (draw.error_m > 0.0f && face.tan_half > 0.0f) {
+    // Scaled about the light, so that every point stays on its ray. A caster with an error is beyond the light's plane.
+    const double nearest = static_cast<double>(nearest_depth(face, *draw.caster));
+    const double scale = 1.0 + static_cast<double>(draw.error_m) / nearest;
+    const dvec4 origin(face.origin, 0.0);
+    matrix[3] -= origin;
+    for (int column = 0; column < 4; ++column) matrix[column] = dvec4(scale * dvec3(matrix[column]), matrix[column].w);
+    matrix[3] += origin;
+  } else {
+    matrix[3] += dvec4(static_cast<double>(draw.error_m) * dvec3(face.forward), 0.0);
+  }
+  return clip_from_mesh(face, matrix);
+}
+
 bool is_cut_out(const Caster& caster) { return (caster.variant.features & GLOAM_SURFACE_MASK) != 0; }
 
-std::vector<FaceDraw> face_draws(const FaceVolume& volume, std::span<const Caster> casters, const CasterForm& form,
-                                 std::span<const Entity> withheld) {
+std::vector<FaceDraw> face_draws(const ShadowFace& face, const FaceVolume& volume, std::span<const Caster> casters,
+                                 const CasterForm& form, std::span<const Entity> withheld) {
   std::vector<FaceDraw> draws;
   for (const Caster& caster : casters)
     if (caster.primitive->index_count > 0 && may_see(volume, caster) && !is_withheld(withheld, caster.entity))
-      add_clusters(volume, caster, form, draws);
+      add_draws(face, volume, caster, form, draws);
   std::stable_partition(draws.begin(), draws.end(), [](const FaceDraw& draw) { return !is_cut_out(*draw.caster); });
   return draws;
 }

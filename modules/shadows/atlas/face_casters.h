@@ -47,17 +47,26 @@ struct FaceDraw {
   std::uint32_t index_count = 0;
   bool fronts_only = false;  ///< the map is the same without the triangles that face away from the light
   bool backs_only = false;   ///< drawn without the triangles that face the light
+  float error_m = 0.0f;      ///< greatest distance of the triangles from the caster's surface
 };
+/// The transform of a draw. Triangles with an error are moved away from the light by it, along its rays: nowhere do
+/// they stand before the caster's surface by more than the slope bias of maps covers.
+[[nodiscard]] mat4 clip_from_mesh(const ShadowFace& face, const FaceDraw& draw);
+
 /// The triangles of casters that are drawn.
 struct CasterForm {
   bool simplified = false;  ///< casters with simplified triangles (GpuPrimitive::simplified_index_count) are drawn with
                             ///< those, whole
   bool subsurface_backs = false;  ///< closed casters with a subsurface material are drawn without their lit side
+  /// Casters are drawn with the coarsest level (Caster::levels) whose error is at most this many of the face's texels
+  /// at the caster. The choice depends on face and caster only, so all regions of a face agree.
+  float lod_texels = 0.0f;
 };
 /// The draws of all clusters that the face may see; adjacent clusters share a draw. Opaque casters come before cut-out
-/// ones. withheld: casters that are left out, a result of WithheldCasters::of().
-[[nodiscard]] std::vector<FaceDraw> face_draws(const FaceVolume& volume, std::span<const Caster> casters,
-                                               const CasterForm& form = {}, std::span<const Entity> withheld = {});
+/// ones. volume: of the face, or of a part. withheld: casters that are left out, a result of WithheldCasters::of().
+[[nodiscard]] std::vector<FaceDraw> face_draws(const ShadowFace& face, const FaceVolume& volume,
+                                               std::span<const Caster> casters, const CasterForm& form = {},
+                                               std::span<const Entity> withheld = {});
 
 /// Whether the caster's alpha is tested.
 [[nodiscard]] bool is_cut_out(const Caster& caster);

@@ -14,11 +14,12 @@ namespace gloam {
 
 /// Counters of a view's passes in the newest frame.
 struct ShadowCounts {
-  std::uint32_t drawn = 0;    ///< faces that were drawn
-  std::uint32_t cached = 0;   ///< faces whose map was in the atlas already
-  std::uint32_t in_turn = 0;  ///< faces in which some casters wait for their turn (CasterSource::turns)
-  std::uint32_t skipped = 0;  ///< faces without casters, which were only cleared
-  std::uint64_t texels = 0;   ///< texels drawn in all faces and backgrounds
+  std::uint32_t drawn = 0;      ///< faces that were drawn
+  std::uint32_t cached = 0;     ///< faces whose map was in the atlas already
+  std::uint32_t in_turn = 0;    ///< faces in which some casters wait for their turn (CasterSource::turns)
+  std::uint32_t skipped = 0;    ///< faces without casters, which were only cleared
+  std::uint64_t texels = 0;     ///< texels drawn in all faces and backgrounds
+  std::uint64_t triangles = 0;  ///< triangles of meshes drawn there
 };
 
 /// State of the history images of maps (modules/shadows/maps/images.h) of one view of one world, or of all its captures

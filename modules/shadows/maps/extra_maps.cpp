@@ -32,9 +32,8 @@ DrawnFace drawn_face(const ExtraMap& map, std::span<const Caster> casters, std::
   DrawnFace drawn{map.face, {}, {}, {}};
   DrawnRegion& region = drawn.regions.emplace_back(DrawnRegion{whole_face(map.face), {}, {}});
   const FaceVolume volume = face_volume(map.face);
-  region.draws = face_draws(volume, casters, form);
-  for (const FaceDraw& draw : region.draws)
-    region.matrices.push_back(clip_from_mesh(map.face, draw.caster->world_from_mesh));
+  region.draws = face_draws(map.face, volume, casters, form);
+  for (const FaceDraw& draw : region.draws) region.matrices.push_back(clip_from_mesh(map.face, draw));
   const std::vector<CasterState> states = source_states(sources);
   for (std::size_t i = 0; i < sources.size(); ++i)
     if (lists(map.casters, sources[i]->entity) && may_see(volume, states[i].box)) region.sources.push_back(sources[i]);

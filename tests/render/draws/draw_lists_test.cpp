@@ -375,13 +375,13 @@ TEST_F(DrawListsTest, a_static_view_leaves_out_what_moves) {
   RenderView all = make_view(ViewSettings{}, 0), fixed = all;
   fixed.static_only = true;
   const RenderView* const mixed[] = {&all, &fixed};
-  const FrameDraws both = build_frame_draws(world_, mixed, scene_, *serial_, true);
+  const FrameDraws both = build_frame_draws(world_, mixed, scene_, *serial_, {.casters = true});
   EXPECT_EQ(both.views[0].solid.size(), 5u);
   ASSERT_EQ(both.views[1].solid.size(), 1u);
   EXPECT_EQ(both.views[1].solid[0].entity, still);
   EXPECT_EQ(both.casters.casters.size(), 5u) << "the first view shows the shadows of what moves";
 
-  const FrameDraws alone = build_frame_draws(world_, std::span(mixed).subspan(1), scene_, *serial_, true);
+  const FrameDraws alone = build_frame_draws(world_, std::span(mixed).subspan(1), scene_, *serial_, {.casters = true});
   EXPECT_EQ(alone.views[0].solid.size(), 1u);
   EXPECT_EQ(alone.casters.casters.size(), 1u);
   EXPECT_TRUE(alone.deforms.empty());

@@ -10,7 +10,7 @@ namespace gloam::test {
 [[nodiscard]] inline FrameDraws frame_draws(const World& world, const RenderView& view, const GpuScene& scene,
                                             JobExecutor& executor, bool with_casters = false) {
   const RenderView* const views[] = {&view};
-  return build_frame_draws(world, views, scene, executor, with_casters);
+  return build_frame_draws(world, views, scene, executor, {.casters = with_casters});
 }
 
 }  // namespace gloam::test

@@ -111,7 +111,7 @@ TEST(FaceCasters, draws_are_runs_of_clusters_that_may_be_seen_and_cut_outs_come_
   }
   std::vector<Caster> casters(2, caster_of(primitive, dvec3(-5.0, 0.0, 0.0), dvec3(5.0, 0.1, 0.1)));
   casters[0].variant.features = GLOAM_SURFACE_MASK;
-  const auto draws = face_draws(face_volume(perspective_face(dvec3(0.0))), casters);
+  const auto draws = face_draws(perspective_face(dvec3(0.0)), face_volume(perspective_face(dvec3(0.0))), casters);
   ASSERT_EQ(draws.size(), 4u);
   EXPECT_EQ(draws[0].caster, &casters[1]);
   EXPECT_EQ(draws[0].first_index, 100u);
@@ -125,9 +125,9 @@ TEST(FaceCasters, fronts_alone_are_drawn_only_of_closed_casters_beyond_the_near_
   GpuPrimitive open, closed;
   open.index_count = closed.index_count = 12;
   closed.closed = true;
-  const FaceVolume lamp = face_volume(perspective_face(dvec3(0.0))), sun = face_volume(orthographic_face(dvec3(0.0)));
-  const auto fronts = [](const FaceVolume& volume, const Caster& caster) {
-    const auto draws = face_draws(volume, std::span(&caster, 1));
+  const ShadowFace lamp = perspective_face(dvec3(0.0)), sun = orthographic_face(dvec3(0.0));
+  const auto fronts = [](const ShadowFace& face, const Caster& caster) {
+    const auto draws = face_draws(face, face_volume(face), std::span(&caster, 1));
     EXPECT_EQ(draws.size(), 1u);
     return !draws.empty() && draws.front().fronts_only;
   };
