@@ -157,11 +157,10 @@ inline constexpr ChoiceKnob<bool> kSimplifiedCasters{
 inline constexpr NumberKnob kShadowLodTexels{
     .name = "shadows.lod_texels",
     .meaning =
-        "greatest distance between the triangles drawn into a shadow map and all triangles of a caster, in texels of "
-        "the "
-        "map, where the scene has more than 131,072 triangles; 0: all triangles are drawn",
+        "greatest distance between the triangles drawn into a shadow map and all triangles of a caster, in texels; for "
+        "scenes of more than 131,072 triangles; 0: all triangles are drawn",
     .max = 2.0,
-    .default_value = 0.25,
+    .default_value = 0.5,
     .exact = 0.0,
     .unit = "texels",
     .ledger_values = {0.0, 0.125, 0.25, 0.5, 1.0},

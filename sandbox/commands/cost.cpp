@@ -10,7 +10,9 @@
 #include "engine/core/processor_time.h"
 #include "engine/core/text/formatted.h"
 #include "engine/render/draws/culling.h"
+#include "engine/render/draws/levels.h"
 #include "engine/render/kept_frames/kept_frames.h"
+#include "engine/render/scene/scene_triangles.h"
 #include "modules/accuracy/module.h"
 #include "modules/accuracy/outputs.h"
 #include "modules/module_list/module_list.h"
@@ -120,7 +122,7 @@ class ConsoleProgress final : public CostProgress {
 KnobRegistry measurable_knobs() {
   KnobRegistry registry;
   for (const auto& module : make_all_modules()) module->knobs(registry);
-  add_knobs(registry, "scene", kCulling, kFrameReuse);
+  add_knobs(registry, "scene", kCulling, kFrameReuse, kLodPixels);
   add_knobs(registry, "views", kViewScale);
   return registry;
 }
@@ -151,6 +153,7 @@ CostRequest make_request(Session& session, const Options& options, const std::ve
     std::string reason;
     for (const auto& module : session.renderer->modules())
       if (module->name() == owner && options.knobs.empty()) reason = idle_reason(*module, name, session);
+    if (name == kLodPixels.name && options.knobs.empty() && !may_have_levels(session.world)) reason = kNoLevels;
     if (reason.empty())
       request.knobs.push_back(name);
     else

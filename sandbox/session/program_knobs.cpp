@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/render/draws/culling.h"
+#include "engine/render/draws/levels.h"
 #include "engine/render/kept_frames/kept_frames.h"
 #include "modules/lighting/outputs.h"
 #include "modules/reflections/module.h"
@@ -39,7 +40,7 @@ std::vector<float> heat_ranges(const KnobRegistry& knobs) {
 KnobRegistry all_knobs(const ModuleList& modules) {
   KnobRegistry knobs;
   for (const auto& module : modules) module->knobs(knobs);
-  add_knobs(knobs, "scene", kCulling, kFrameReuse);
+  add_knobs(knobs, "scene", kCulling, kFrameReuse, kLodPixels);
   add_program_knobs(knobs);
   return knobs;
 }

@@ -9,8 +9,8 @@ namespace gloam {
 inline constexpr NumberKnob kLodPixels{
     .name = "scene.lod_pixels",
     .meaning =
-        "greatest distance in the picture between the triangles that are drawn and all triangles of a mesh, where the "
-        "scene has more than 131,072 triangles; 0: all triangles are drawn",
+        "greatest distance in the picture between the triangles that are drawn and all triangles of a mesh; for scenes "
+        "of more than 131,072 triangles; 0: all triangles are drawn",
     .max = 4.0,
     .default_value = 0.0,
     .exact = 0.0,

@@ -40,8 +40,7 @@ Status make_levels(Frame& frame, const SceneAssets& assets, GpuScene& scene, con
   frame.view_levels =
       std::ranges::any_of(frame.views, [&](const FrameView& own) { return lod_pixels(frame.knobs_of(own)) > 0.0f; });
   if (!frame.caster_levels && !frame.view_levels) return {};
-  if (instance_triangles(frame.world, scene) < kFewestTrianglesForLevels)
-    frame.caster_levels = frame.view_levels = false;
+  if (!may_have_levels(frame.world)) frame.caster_levels = frame.view_levels = false;
   if (frame.caster_levels) GLOAM_TRY(scene.make_levels(assets, *parts.options.executor, LevelUse::maps));
   if (frame.view_levels) GLOAM_TRY(scene.make_levels(assets, *parts.options.executor, LevelUse::views));
   return {};

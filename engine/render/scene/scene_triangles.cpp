@@ -5,14 +5,16 @@
 #include <vector>
 
 #include "engine/ecs/view.h"
+#include "engine/scene/assets.h"
 #include "engine/scene/components.h"
 
 namespace gloam {
 
-std::uint64_t instance_triangles(const World& world, const GpuScene& scene) {
-  std::vector<std::uint64_t> triangles(scene.meshes().size(), 0);
-  for (std::size_t m = 0; m < triangles.size(); ++m)
-    for (const GpuPrimitive& primitive : scene.meshes()[m]) triangles[m] += primitive.index_count / 3;
+std::uint64_t instance_triangles(const World& world) {
+  const std::vector<Mesh>& meshes = world.resource<SceneAssets>().meshes;
+  std::vector<std::uint64_t> triangles(meshes.size(), 0);
+  for (std::size_t m = 0; m < meshes.size(); ++m)
+    for (const Primitive& primitive : meshes[m].primitives) triangles[m] += primitive.indices.size() / 3;
   std::uint64_t sum = 0;
   world.view<const MeshInstance>().each([&](Entity, const MeshInstance& instance) {
     if (instance.mesh < triangles.size()) sum += triangles[instance.mesh];

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/ecs/view.h"
+#include "engine/render/scene/scene_triangles.h"
 #include "engine/scene/assets.h"
 #include "engine/scene/components.h"
 #include "engine/scene/transmission.h"
@@ -75,6 +76,7 @@ bool has_near_blocker(const World& world) {
 
 std::string idle_shadow_knob(const World& world, std::string_view knob, const FrameCounters& counters) {
   if (knob == kSubsurfaceBacks.name && !lets_light_through(world)) return "no material lets light through";
+  if (knob == kShadowLodTexels.name && !may_have_levels(world)) return std::string(kNoLevels);
   constexpr std::string_view kOfWidth[] = {kShadowNear.name, kShadowNearDirections.name, kShadowMips.name,
                                            kShadowMipOperator.name, kSquareShadowKernel.name};
   if (std::ranges::find(kOfWidth, knob) != std::end(kOfWidth) && !has_wide_light(world))

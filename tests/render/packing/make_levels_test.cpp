@@ -182,7 +182,9 @@ TEST(MakeLevels, errors_bound_the_distance_of_all_vertices_at_all_sizes) {
         double farthest = 0.0;
         for (const dvec3& p : positions) farthest = std::max(farthest, brute_distance(positions, indices, p));
         EXPECT_GE(level.error, farthest * (1.0 - 1e-4) - 1e-6 * static_cast<double>(size));
-        if (use == LevelUse::maps) EXPECT_LE(level.error, farthest * 1.01 + 1e-5 * static_cast<double>(size));
+        if (use == LevelUse::maps) {
+          EXPECT_LE(level.error, farthest * 1.01 + 1e-5 * static_cast<double>(size));
+        }
         std::uint32_t in_clusters = 0;
         for (const Cluster& cluster : level.clusters) in_clusters += cluster.index_count;
         EXPECT_EQ(in_clusters, level.index_count);
