@@ -4,115 +4,148 @@
 
 #include <algorithm>
 
-#include "engine/render/declare/compute_pass.h"
-#include "engine/render/outputs.h"
+#include "modules/closeups/compose/composition.h"
 #include "modules/closeups/compose/frame.h"
 #include "modules/closeups/compose/overlay.h"
 #include "modules/closeups/debug/unculled_pairs.h"
 #include "modules/lights/outputs.h"
 #include "shaders/closeups/closeups_shared.h"
-#include "shaders/closeups/shaders.h"
 
 namespace gloam {
 namespace {
 
 bool by_index(Entity a, Entity b) { return a.index < b.index; }
 
-ComputeProgram compose_program(const ShadowsOutputs& shadows, bool directional, const gpu::DeviceInfo& device) {
-  using namespace shaders::closeups;
-  ComputeProgram program{directional ? (shadows.standard ? compose_suns_standard_comp : compose_suns_comp)
-                                     : (shadows.standard ? compose_local_standard_comp : compose_local_comp),
-                         shadows.constants};
-  program.constants.set("local_size_x", threads_a_tile(device));
-  program.constants.set_if_present("kThinFilter", 0u);  // close-up maps may lack the coarse mips that it reads
-  program.constants.set(shadows.final_lists->constants);
-  return program;
+/// A pair with its map.
+struct CloseupPlan {
+  CloseupView pair;
+  bool in_overlay = false;  ///< as in CloseupFrame
+};
+
+/// The pairs of the frame. Faces of a batch get one size, that of the largest one.
+std::vector<CloseupPlan> plans_of(const CloseupFrame& closeups, std::uint32_t batch) {
+  std::vector<CloseupPlan> plans;
+  for (std::size_t i = 0; i < closeups.pairs.size(); ++i)
+    plans.push_back({closeups.pairs[i], closeups.in_overlay[i] != 0});
+  for (std::span<CloseupPlan> left = plans; !left.empty();) {
+    const std::span<CloseupPlan> together = left.first(std::min<std::size_t>(batch, left.size()));
+    left = left.subspan(together.size());
+    std::uint32_t size = 0;
+    for (const CloseupPlan& plan : together) size = std::max(size, plan.pair.face.square.size);
+    for (CloseupPlan& plan : together) plan.pair.face.square.size = size;
+  }
+  return plans;
 }
 
-shaders::CloseupConstants constants_of(const CloseupView& pair, const RenderView& view,
-                                       std::span<const DirectionalLook> suns) {
-  shaders::CloseupConstants c{};
-  c.near_m = pair.face.near_m;
-  c.emitter_diameter_m = pair.emitter_diameter_m;
-  c.tan_half = pair.face.tan_half;
-  c.tan_inner = pair.tan_inner;
-  c.right = pair.face.right;
-  c.up = pair.face.up;
-  c.size = static_cast<float>(pair.face.square.size);
-  c.origin = vec2(pair.face.square.origin);
-  c.first_tile = pair.tiles.begin;
-  c.light = pair.light_index;
-  if (!pair.directional) return c;
-  const DirectionalLook sun = pair.light_index < suns.size() ? suns[pair.light_index] : DirectionalLook{};
-  const shaders::ShadowCascade cascade = orthographic_constants(pair.face, view.position);
-  c.penumbra_m_per_m = pair.penumbra_m_per_m;
-  c.row_u = cascade.row_u;
-  c.row_v = cascade.row_v;
-  c.row_depth = cascade.row_depth;
-  c.texel_m = cascade.texel_m;
-  c.depth_m = cascade.depth_m;
-  c.direction = sun.direction;
-  c.brightest = sun.brightest;
-  return c;
+/// The first pairs, at most `most`, whose faces have one size, side by side in the close-up map.
+std::vector<CloseupPlan> placed(std::span<const CloseupPlan> pairs, std::uint32_t most) {
+  std::vector<CloseupPlan> plans;
+  for (const CloseupPlan& plan : pairs) {
+    const std::uint32_t size = pairs.front().pair.face.square.size, i = static_cast<std::uint32_t>(plans.size());
+    if (i == most || plan.pair.face.square.size != size) break;
+    plans.push_back(plan);
+    plans.back().pair.face.square = {uvec2(i & 1u, i >> 1) * size, size};
+  }
+  return plans;
 }
 
-/// The pairs with faces of one size, that of the largest one, side by side in the close-up map.
-std::vector<CloseupView> placed(std::span<const CloseupView> batch) {
-  std::vector<CloseupView> pairs(batch.begin(), batch.end());
-  std::uint32_t size = 0;
-  for (const CloseupView& pair : pairs) size = std::max(size, pair.face.square.size);
-  for (std::uint32_t i = 0; i < pairs.size(); ++i) pairs[i].face.square = {uvec2(i & 1u, i >> 1) * size, size};
-  return pairs;
-}
-
-/// The pairs whose flag is set.
-std::vector<CloseupView> chosen(std::span<const CloseupView> pairs, std::span<const std::uint8_t> flags) {
-  std::vector<CloseupView> found;
-  for (std::size_t i = 0; i < pairs.size(); ++i)
-    if (flags[i] != 0) found.push_back(pairs[i]);
-  return found;
-}
-
-void draw_batch(FrameBuilder& frame, std::span<const CloseupView> pairs, MapMips mips, ExtraAtlas& map) {
+std::vector<ExtraMap> maps_of(const FrameBuilder& frame, std::span<const CloseupView> pairs) {
   const auto& subjects = frame.world().resource<CloseupSubjects>();
   std::vector<ExtraMap> maps;
-  for (const CloseupView& pair : pairs) maps.push_back({pair.face, subjects.subjects[pair.subject_index].casters});
-  frame.get<ShadowMapDrawer>().draw(frame, "closeup", maps, map, mips);
-}
-
-void write_final_lists(ComputePass& pass, FinalLists& lists) {
-  lists.tiles = pass.write("final_tiles", lists.tiles);
-  lists.entries = pass.write("entries", lists.entries);
-  write_visibilities(pass, lists);
-  lists.counters = pass.write("counters", lists.counters);
-  lists.commands = pass.write("commands", lists.commands);
-  lists.fallback_tiles = pass.write("fallback_tiles", lists.fallback_tiles);
-  lists.kept_tiles = pass.write("kept_tiles", lists.kept_tiles);
-}
-
-/// `constants`: of each pair. `shadows`: with the filter for close-up maps and the atlas, pyramid and block of the
-/// close-up map.
-void compose_batch(FrameBuilder& frame, std::span<const CloseupView> pairs,
-                   std::span<const shaders::CloseupConstants> constants, const ShadowsOutputs& shadows) {
-  const gpu::DeviceInfo& device = frame.services().device.info();
-  FinalLists& lists = *frame.get<ShadowsOutputs>().final_lists;
-  ComputePass pass(frame, "closeup_compose", compose_program(shadows, pairs.front().directional, device));
-  read_geometry(pass, frame.get<GeometryOutputs>());
-  read_shadows(pass, shadows);
-  pass.read("light_texels", frame.get<LightsOutputs>().texels);
-  pass.read("final_grid", lists.grid);
-  write_final_lists(pass, lists);
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const CloseupView& pair = pairs[i];
-    if (i > 0) {
-      pass.barrier();  // pairs may share tiles
-      pass.use(compose_program(shadows, pair.directional, device));
-    }
-    pass.uniform("closeup", constants[i]);
-    const uvec2 tiles = pair.tiles.end - pair.tiles.begin;
-    pass.dispatch(tiles.x, tiles.y);
+  for (const CloseupView& pair : pairs) {
+    maps.push_back({pair.face, subjects.subjects[pair.subject_index].casters});
+    maps.back().face.index = pair.subject.index;  // distinguishes the maps of one light
   }
+  return maps;
 }
+
+/// The passes of a frame's pairs, some pairs at a time.
+class PairPasses {
+ public:
+  PairPasses(FrameBuilder& frame, const CloseupKnobs& knobs, const CloseupFrame& closeups)
+      : frame_(frame),
+        knobs_(knobs),
+        map_size_(frame.world().view_resource<CloseupSettings>(frame.view().id).map_size),
+        looked_(frame.get<ShadowsOutputs>()),
+        suns_(directional_looks(frame.world().view_resource<VisibleLights>(frame.view().id))),
+        overlay_(knobs.draws_standard),
+        unculled_(frame) {
+    if (knobs.single_fetches) looked_ = by_single_fetches(std::move(looked_));
+    overlay_.start(frame, closeups.overlay);
+  }
+
+  /// Adds the pairs whose maps are kept over frames. Returns the others: those for whose maps there is no room.
+  [[nodiscard]] std::vector<CloseupPlan> add_kept(std::span<const CloseupPlan> plans) {
+    std::vector<CloseupView> pairs;
+    bool copied = false;
+    for (const CloseupPlan& plan : plans) {
+      pairs.push_back(plan.pair);
+      copied = copied || plan.in_overlay;
+    }
+    KeptMaps maps = drawer().draw_kept(frame_, "closeup", maps_of(frame_, pairs), map_size_, mips_for(copied));
+    if (!frame_.status().ok()) return {};
+    std::vector<CloseupPlan> kept, left;
+    for (std::size_t i = 0; i < plans.size(); ++i) {
+      (maps.squares[i].size > 0 ? kept : left).push_back(plans[i]);
+      if (maps.squares[i].size > 0) kept.back().pair.face.square = maps.squares[i];
+    }
+    maps_drawn_ += maps.drawn;
+    if (!kept.empty()) compose(kept, maps.atlas);
+    return left;
+  }
+  /// Adds pairs batch by batch, with a map that all batches reuse.
+  void add_batches(std::span<const CloseupPlan> plans) {
+    if (plans.empty()) return;
+    ExtraAtlas map = drawer().create(frame_, map_size_);
+    for (std::span<const CloseupPlan> left = plans; !left.empty();) {
+      const std::vector<CloseupPlan> batch = placed(left, knobs_.batch);
+      left = left.subspan(batch.size());
+      std::vector<CloseupView> pairs;
+      for (const CloseupPlan& plan : batch) pairs.push_back(plan.pair);
+      const bool copied = std::ranges::any_of(batch, &CloseupPlan::in_overlay);
+      drawer().draw(frame_, "closeup", maps_of(frame_, pairs), map, mips_for(copied));
+      maps_drawn_ += static_cast<std::uint32_t>(pairs.size());
+      compose(batch, map);
+    }
+  }
+  [[nodiscard]] std::uint32_t maps_drawn() const { return maps_drawn_; }
+  void finish() {
+    overlay_.finish(frame_);
+    unculled_.finish(frame_);
+  }
+
+ private:
+  [[nodiscard]] const ShadowMapDrawer& drawer() const { return frame_.get<ShadowMapDrawer>(); }
+  /// copied: the overlay reads the maps, and with them their coarser mips.
+  [[nodiscard]] MapMips mips_for(bool copied) const {
+    return knobs_.single_fetches && !copied ? MapMips::bounds_only : MapMips::all;
+  }
+  void compose(std::span<const CloseupPlan> plans, ExtraAtlas& map) {
+    ShadowsOutputs looked = looked_;
+    looked.block = drawer().block(frame_, map.size);
+    looked.atlas = map.atlas;
+    looked.pyramid = map.pyramid;
+    std::vector<CloseupView> pairs, copied;
+    std::vector<shaders::CloseupConstants> constants;
+    for (const CloseupPlan& plan : plans) {
+      pairs.push_back(plan.pair);
+      constants.push_back(constants_of(plan.pair, frame_.view(), suns_));
+      if (plan.in_overlay) copied.push_back(plan.pair);
+    }
+    add_composition(frame_, pairs, constants, looked);
+    for (std::size_t i = 0; i < pairs.size(); ++i) unculled_.add(frame_, pairs[i], looked, constants[i]);
+    overlay_.add(frame_, copied, map);
+  }
+
+  FrameBuilder& frame_;
+  CloseupKnobs knobs_;
+  std::uint32_t map_size_;
+  ShadowsOutputs looked_;  ///< with the filter for close-up maps
+  std::vector<DirectionalLook> suns_;
+  CloseupOverlay overlay_;
+  UnculledPairs unculled_;
+  std::uint32_t maps_drawn_ = 0;
+};
 
 }  // namespace
 
@@ -138,43 +171,26 @@ bool closeup_pipelines_ready(const FrameBuilder& frame, const CloseupKnobs& knob
   const FrameServices& services = frame.services();
   const ShadowsOutputs looked = knobs.single_fetches ? by_single_fetches(*shadows) : *shadows;
   PipelineList list;
-  for (const bool directional : {false, true})
-    list.push_back(pipeline_desc(compose_program(looked, directional, services.device.info()), frame.module()));
+  list_composition_pipelines(looked, services.device.info(), list);
   list_bounds_pipelines(maps->d16(), list);
   list_closeup_overlay_pipelines(maps->d16(), list);
   return services.pipelines.request(list, services.log);
 }
 
-void add_closeup_passes(FrameBuilder& frame, const CloseupKnobs& knobs) {
-  auto* closeups = frame.find<CloseupFrame>();
-  auto* shadows = frame.find<ShadowsOutputs>();
-  auto* drawer = frame.find<ShadowMapDrawer>();
-  if (closeups == nullptr || closeups->pairs.empty() || shadows == nullptr || drawer == nullptr) return;
-  ExtraAtlas map = drawer->create(frame, frame.world().view_resource<CloseupSettings>(frame.view().id).map_size);
-  CloseupOverlay overlay(knobs.draws_standard);
-  UnculledPairs unculled(frame);
-  overlay.start(frame, closeups->overlay);
-  ShadowsOutputs looked = knobs.single_fetches ? by_single_fetches(*shadows) : *shadows;
-  looked.block = drawer->block(frame, map.size);
-  const std::vector<DirectionalLook> suns =
-      directional_looks(frame.world().view_resource<VisibleLights>(frame.view().id));
-  for (std::size_t first = 0; first < closeups->pairs.size(); first += knobs.batch) {
-    const std::size_t count = std::min<std::size_t>(knobs.batch, closeups->pairs.size() - first);
-    const std::vector<CloseupView> pairs = placed(std::span(closeups->pairs).subspan(first, count));
-    const std::vector<CloseupView> copied = chosen(pairs, std::span(closeups->in_overlay).subspan(first, count));
-    // The overlay reads coarser mips of the close-up map.
-    const MapMips mips = knobs.single_fetches && copied.empty() ? MapMips::bounds_only : MapMips::all;
-    draw_batch(frame, pairs, mips, map);
-    looked.atlas = map.atlas;
-    looked.pyramid = map.pyramid;
-    std::vector<shaders::CloseupConstants> constants;
-    for (const CloseupView& pair : pairs) constants.push_back(constants_of(pair, frame.view(), suns));
-    compose_batch(frame, pairs, constants, looked);
-    for (std::size_t i = 0; i < pairs.size(); ++i) unculled.add(frame, pairs[i], looked, constants[i]);
-    overlay.add(frame, copied, map);
-  }
-  overlay.finish(frame);
-  unculled.finish(frame);
+std::uint32_t add_closeup_passes(FrameBuilder& frame, const CloseupKnobs& knobs) {
+  const auto* closeups = frame.find<CloseupFrame>();
+  if (closeups == nullptr || closeups->pairs.empty()) return 0;
+  if (frame.find<ShadowsOutputs>() == nullptr || frame.find<ShadowMapDrawer>() == nullptr) return 0;
+  std::vector<CloseupPlan> plans = plans_of(*closeups, knobs.batch);
+  PairPasses passes(frame, knobs, *closeups);
+  // Drawing subjects into the overlay overwrites maps.
+  const bool keeps =
+      knobs.keeps_maps && !(knobs.draws_standard && std::ranges::any_of(plans, &CloseupPlan::in_overlay));
+  if (keeps) plans = passes.add_kept(plans);
+  if (!frame.status().ok()) return 0;
+  passes.add_batches(plans);
+  passes.finish();
+  return passes.maps_drawn();
 }
 
 }  // namespace gloam

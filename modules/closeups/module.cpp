@@ -16,6 +16,7 @@
 #include "engine/scene/keys/table.h"
 #include "modules/closeups/closeup_passes.h"
 #include "modules/closeups/components.h"
+#include "modules/closeups/compose/composition.h"
 #include "modules/closeups/compose/frame.h"
 #include "modules/closeups/debug/pick.h"
 #include "modules/closeups/debug/visualizers.h"
@@ -160,7 +161,7 @@ class CloseupsModule final : public Module {
     if (frame.find<CloseupFrame>() == nullptr)
       ready_ = closeup_pipelines_ready(frame, closeup_knobs(frame.knobs()));
     else
-      add_closeup_passes(frame, closeup_knobs(frame.knobs()));
+      last_[key_of(frame.world(), frame.view())].maps_drawn = add_closeup_passes(frame, closeup_knobs(frame.knobs()));
   }
 
   [[nodiscard]] std::vector<std::string> pick(FrameBuilder& frame, const PickedPixel& pixel,
@@ -174,6 +175,7 @@ class CloseupsModule final : public Module {
     sink.count("closeups.pairs", last.pairs);
     sink.count("closeups.skipped", last.skipped);
     sink.count("closeups.tiles", static_cast<double>(last.tiles));
+    sink.count("closeups.maps_drawn", last.maps_drawn);
   }
 
  private:
@@ -182,6 +184,7 @@ class CloseupsModule final : public Module {
     std::uint32_t pairs = 0;
     std::uint32_t skipped = 0;
     std::uint64_t tiles = 0;
+    std::uint32_t maps_drawn = 0;
     std::uint64_t number = 0;  ///< Device::frame_number
   };
   using Key = std::pair<std::uint64_t, std::uint32_t>;  ///< world_id and view
@@ -194,9 +197,10 @@ class CloseupsModule final : public Module {
     LastFrame& last = last_[key_of(frame.world(), frame.view())];
     auto reserved = reserve_umbra(frame, frame.world().view_resource<CloseupViews>(frame.view().id).pairs);
     CloseupFrame closeups = plan_closeup_frame(frame, reserved.has_value());
-    last = {static_cast<std::uint32_t>(closeups.pairs.size()), closeups.skipped, 0, number};
+    last = {static_cast<std::uint32_t>(closeups.pairs.size()), closeups.skipped, 0, 0, number};
     if (reserved) frame.put(std::move(*reserved));
     for (const CloseupView& pair : closeups.pairs) last.tiles += pair.tiles.tiles();
+    frame.put(composed_lights(closeups.pairs, closeup_knobs(frame.knobs())));
     frame.put(withheld_casters(closeups.pairs, frame.world().resource<CloseupSubjects>()));
     frame.put(std::move(closeups));
   }

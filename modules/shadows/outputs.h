@@ -165,9 +165,11 @@ struct FinalLists {
   BufferRef commands;               ///< one ShadowListCommands
   std::uint64_t fallback_draw = 0;  ///< byte offset of ShadowListCommands::fallback_draw in `commands`
   BufferRef counters;               ///< one ShadowListCounters
-  /// With kReuse of `constants`, a KeptTile per shadow tile: who changes a tile's list sets its local_first to
-  /// GLOAM_NO_FINAL_LIST there. Otherwise one that is not read.
+  /// With kReuse of `constants`, a KeptTile per shadow tile. A later module that changes visibilities of a light adds
+  /// the light to KeptTile::composed; one that makes a tile a fallback tile sets KeptTile::local_first to
+  /// GLOAM_NO_FINAL_LIST. Otherwise one that is not read.
   BufferRef kept_tiles;
+  bool has_anew = false;     ///< KeptTile::anew is set: other lights show what the last frame's later modules have left
   BufferRef fallback_tiles;  ///< y << 16 | x per fallback tile; their number is ShadowListCommands::fallback_draw.y
   gpu::Binding::BufferRange grid;     ///< uniform buffer range that holds a FinalGrid
   bool always_complete = false;       ///< the buffers hold every light of every tile: there are no fallback tiles
@@ -247,6 +249,16 @@ struct WithheldCasters {
   [[nodiscard]] std::span<const Entity> of(Entity light) const;
 };
 
+/// What a later module changes visibilities by. That module puts it on the board in PassPhase::announce, so that
+/// visibilities which it would change alike are kept with its changes (shadows.reuse=exact).
+struct ComposedLights {
+  struct OfLight {
+    Entity light;
+    std::uint64_t hash = 0;  ///< of everything that the changes depend on besides pixels, light and withheld casters
+  };
+  std::vector<OfLight> lights;
+};
+
 /// One texel of FinalLists::tiles, decoded. Firsts are indices into FinalLists::entries.
 struct FinalList {
   bool complete = true;  ///< false: a buffer was full; the tile is a fallback tile and all other members are 0
@@ -292,7 +304,7 @@ struct ReservedTiles {
 
 /// A shadow map outside the standard atlas: one face and the casters that are drawn into it.
 struct ExtraMap {
-  ShadowFace face;  ///< face.square is the place in the ExtraAtlas
+  ShadowFace face;  ///< face.square is the place in the ExtraAtlas. Kept maps: face.light and face.index name the map
   /// Caster::entity of the casters and CasterSource::entity of the sources, ascending by Entity::index.
   std::span<const Entity> casters;
 };
@@ -318,6 +330,13 @@ enum class MapMips : std::uint8_t {
   bounds_only,  ///< the pyramid only: for by_single_fetches(), which reads no coarser mip of the atlas
 };
 
+/// Maps that stay as they are between frames of a view, in an atlas of their own.
+struct KeptMaps {
+  ExtraAtlas atlas;
+  std::vector<AtlasSquare> squares;  ///< by map: its place; size 0: it found no room, and was not drawn
+  std::uint32_t drawn = 0;           ///< maps that were drawn in this frame; the others show the same as before
+};
+
 struct ShadowMapTools;  ///< internal to the shadows module
 
 /// Draws shadow maps outside the standard atlas for later modules, with the same knobs, bias and mips as standard maps.
@@ -337,6 +356,12 @@ class ShadowMapDrawer {
   /// (FrameBuilder::fail).
   void draw(FrameBuilder& frame, const char* name, std::span<const ExtraMap> maps, ExtraAtlas& into,
             MapMips mips = MapMips::all) const;
+  /// The same for maps of a view that outlive the frame, each of its own size. Finds their places in an atlas with a
+  /// side of `size` texels, the first maps first; a map keeps its place while its size stays the same and the others
+  /// leave room. Draws only those whose face, casters or knobs differ from those of the last frame with this map. The
+  /// atlas belongs to the module that is adding passes.
+  [[nodiscard]] KeptMaps draw_kept(FrameBuilder& frame, const char* name, std::span<const ExtraMap> maps,
+                                   std::uint32_t size, MapMips mips) const;
   /// Uploads the ShadowBlock that shadows_api.glsl needs for maps of an ExtraAtlas, and returns its range in the
   /// frame's uniform memory. It equals the standard maps' ShadowBlock except for atlas_size. size: ExtraAtlas::size.
   /// If there is no memory, the range is empty and the frame is given up.

@@ -25,11 +25,13 @@ struct CloseupConstants {
   vec3 direction;   // direction in which the light shines
   float brightest;  // lux, of the brightest channel
   float texel_m;
-  float depth_m;  // distance between depth 1 and depth 0, metres
-  vec2 origin;    // corner of the face in the close-up map, texels
-  uvec2 first_tile;
+  float depth_m;     // distance between depth 1 and depth 0, metres
+  vec2 origin;       // corner of the face in the close-up map, texels
+  uvec2 first_tile;  // umbra range: shadow tiles [first_tile, end_tile)
+  uvec2 end_tile;
   uint light;  // index among the view's local or directional lights
-  uint reserved;
+  uint pair;   // index of the pair's indirect command: number of workgroups, and in w the number of its listed tiles
+  uint first_item;  // index of the first listed tile
 };
 
 /// Constants to transfer the depths of a pair's face to a rectangle of a standard face of the same light. The standard

@@ -39,9 +39,10 @@
 #define GLOAM_CANDIDATES_DIRECTIONAL 2
 #define GLOAM_CANDIDATES_TWO_GROUPS 1  // is added
 #define GLOAM_CANDIDATE_KINDS 4
-#define GLOAM_CANDIDATE_GROUP 64         // candidates of a workgroup
-#define GLOAM_LIGHT_CHANGED 0xFFFFFFFFu  // in place of a light's index in the frame before
-#define GLOAM_MOST_KEPT_LIGHTS 128u      // of a kind; tiles with more keep none
+#define GLOAM_CANDIDATE_GROUP 64            // candidates of a workgroup
+#define GLOAM_LIGHT_CHANGED 0xFFFFFFFFu     // in place of a light's index in the frame before
+#define GLOAM_LIGHT_RECOMPOSED 0x80000000u  // added to that index: later modules change its visibilities otherwise
+#define GLOAM_MOST_KEPT_LIGHTS 128u         // of a kind; tiles with more keep none
 
 GLOAM_SHARED_BEGIN
 
@@ -65,7 +66,10 @@ struct KeptTile {
   uint directional_first;  // GLOAM_NO_FINAL_LIST: the tile has nothing to reuse
   uint local_first;
   uint counts;  // as z of the tile's texel
-  uint reserved;
+  // Sets of lights (kept_tiles_api.glsl). composed: later modules have changed their visibilities. anew: later modules
+  // have still to look at them in this frame.
+  uint composed;
+  uint anew;
 };
 
 /// Arguments of indirect commands, written by the GPU.

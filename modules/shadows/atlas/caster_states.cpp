@@ -210,6 +210,22 @@ CasterHistory CasterHistory::advanced(std::vector<CasterState> states, std::size
   return next;
 }
 
+std::uint64_t CasterHistory::withheld_hash(Entity light) const {
+  const std::span<const CasterState> all(states_), meshes = all.first(all.size() - sources_);
+  const std::span<const Entity> casters = withheld_.of(light);
+  Hasher hasher;
+  const auto add = [&](const CasterState& state) {
+    hasher.value(state.entity.index).value(state.hash).value(state.unsteady ? frame_ : 0);
+  };
+  for (const Entity entity : casters) {
+    auto at = std::ranges::lower_bound(meshes, entity, by_entity, &CasterState::entity);
+    for (; at != meshes.end() && at->entity == entity; ++at) add(*at);
+  }
+  for (const CasterState& source : all.last(sources_))
+    if (is_withheld(casters, source.entity)) add(source);
+  return hasher.digest();
+}
+
 std::vector<CasterBox> CasterHistory::find_changed(Entity light, const CasterHistory& before) const {
   const std::span<const Entity> left_before = before.withheld_.of(light), left_now = withheld_.of(light);
   std::vector<CasterBox> boxes;

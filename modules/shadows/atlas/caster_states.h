@@ -71,6 +71,9 @@ class CasterHistory {
   /// The same for the maps of one light, which leave its withheld casters out. A caster that becomes withheld, or stops
   /// being withheld, counts as changed.
   [[nodiscard]] std::span<const CasterBox> changed(Entity light) const;
+  /// A hash of the newest states of the casters and sources withheld from this light. No other frame has the same, if
+  /// one of them is unsteady.
+  [[nodiscard]] std::uint64_t withheld_hash(Entity light) const;
   /// Whether a caster (index into states()) has not changed for kRestFrames frames, or since frame 1: a resting caster.
   [[nodiscard]] bool rests(std::size_t caster) const {
     return since_[caster] <= 1 || since_[caster] + kRestFrames <= frame_;

@@ -16,18 +16,6 @@ namespace {
 /// With more changed boxes, faces are drawn whole: testing all boxes for every face would cost more than it saves.
 constexpr std::size_t kMostChanges = 2048;
 
-/// Hash of everything that maps depend on besides face and casters.
-std::uint64_t salt_of(const FrameBuilder& frame, const ShadowKnobs& knobs) {
-  return Hasher()
-      .value(frame.world().resource<SceneAssets>().version)
-      .value(std::bit_cast<std::uint32_t>(knobs.bias_units))
-      .value(knobs.mip_operator)
-      .value(knobs.simplified)
-      .value(std::bit_cast<std::uint32_t>(knobs.lod_texels))
-      .value(knobs.subsurface_backs)
-      .digest();
-}
-
 /// The parts of one face's map that must be drawn.
 struct Stale {
   std::vector<TexelRect> regions;  ///< none when the map is up to date
@@ -232,6 +220,16 @@ DrawnMaps plan_maps(const MapInputs& inputs, ViewMapState& kept, JobExecutor& ex
   return maps;
 }
 
+std::uint64_t map_salt(const FrameBuilder& frame, const ShadowKnobs& knobs) {
+  return Hasher()
+      .value(frame.world().resource<SceneAssets>().version)
+      .value(std::bit_cast<std::uint32_t>(knobs.bias_units))
+      .value(knobs.mip_operator)
+      .value(knobs.simplified)
+      .value(knobs.subsurface_backs)
+      .digest();
+}
+
 void commit_maps(std::span<const DrawnFace> drawn, std::span<const HeldFace> held, ViewMapState& kept) {
   if (!kept.frame.committed) {
     if (kept.frame.atlas_is_empty) {
@@ -261,7 +259,7 @@ DrawnMaps faces_to_draw(FrameBuilder& frame, ViewMapState& kept, const ViewFaces
                          .casters = frame.casters().casters,
                          .poses = poses,
                          .sources = frame.caster_sources(),
-                         .salt = salt_of(frame, knobs),
+                         .salt = map_salt(frame, knobs),
                          .form = {knobs.simplified, knobs.subsurface_backs, knobs.lod_texels},
                          .continues_frame = continues_frame,
                          .atlas_is_empty = atlas_is_empty};

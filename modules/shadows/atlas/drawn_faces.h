@@ -54,6 +54,9 @@ struct DrawnMaps {
   std::vector<HeldFace> held;  ///< faces that are not drawn
 };
 
+/// Hash of everything that maps depend on besides face and casters.
+[[nodiscard]] std::uint64_t map_salt(const FrameBuilder& frame, const ShadowKnobs& knobs);
+
 /// Everything that the maps of a view depend on in one frame.
 struct MapInputs {
   std::span<const ShadowFace> faces;             ///< those without a place (square.size 0) are ignored

@@ -257,6 +257,7 @@ std::optional<FinalLists> add_generate_passes(FrameBuilder& frame, const ShadowK
     ListInputs inputs = list_inputs(frame, knobs, shadows, maps, buffers.sizes);
     kept = plan_kept(frame, shadows, buffers, inputs, reuse);
     note_reuse(frame, maps, kept.keys, std::move(inputs), reuse);
+    buffers.lists.has_anew = kept.keys;
   }
   add_start_pass(frame, buffers);
   add_list_pass(frame, shadows, kept, buffers);

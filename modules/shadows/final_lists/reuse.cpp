@@ -51,6 +51,20 @@ MapVersions map_versions(std::span<const FaceKey> faces, const ViewMapState& map
   return versions;
 }
 
+/// Sets LightInputs::composed of lights that later modules compose.
+void set_composed(const FrameBuilder& frame, const CasterHistory& casters, std::span<LightInputs> lights) {
+  const auto* composed = frame.find<ComposedLights>();
+  if (composed == nullptr) return;
+  for (LightInputs& light : lights) {
+    const auto of_light = std::ranges::find(composed->lights, light.light, &ComposedLights::OfLight::light);
+    if (of_light == composed->lights.end()) continue;
+    Hasher hasher;
+    hasher.value(of_light->hash).value(frame.world().resource<SceneAssets>().version);
+    hasher.value(casters.withheld_hash(light.light));
+    light.composed = hasher.digest();
+  }
+}
+
 std::vector<FaceKey> keys_of(const FrameBuilder& frame) {
   std::vector<FaceKey> keys;
   for (const ShadowFace& face : frame.world().view_resource<ViewFaces>(frame.view().id).faces)
@@ -73,7 +87,8 @@ void add_indices(std::span<const LightInputs> last, std::span<const LightInputs>
     const auto found = places.find(now[i].light);
     if (found == places.end()) continue;
     const LightInputs& before = last[found->second];
-    if (before.hash == now[i].hash && before.maps == now[i].maps) indices[i] = found->second;
+    if (before.hash != now[i].hash || before.maps != now[i].maps) continue;
+    indices[i] = found->second | (before.composed == now[i].composed ? 0u : GLOAM_LIGHT_RECOMPOSED);
   }
 }
 
@@ -154,8 +169,10 @@ ListInputs list_inputs(const FrameBuilder& frame, const ShadowKnobs& knobs, cons
     inputs.directional.push_back({directional[i], hasher.digest(), 0});
   }
   const auto versions = map_versions(keys_of(frame), maps, maps.frame.drawn, frame.services().device.frame_number());
-  set_map_versions(versions, inputs.local);
-  set_map_versions(versions, inputs.directional);
+  for (std::vector<LightInputs>* lights : {&inputs.local, &inputs.directional}) {
+    set_map_versions(versions, *lights);
+    set_composed(frame, maps.frame.history, *lights);
+  }
   return inputs;
 }
 

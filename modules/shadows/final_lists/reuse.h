@@ -25,8 +25,9 @@ namespace gloam {
 /// What the visibilities of one light depend on besides the pixels, as hashes.
 struct LightInputs {
   Entity light = kNoEntity;
-  std::uint64_t hash = 0;  ///< where its light falls, and its row or cascades
-  std::uint64_t maps = 0;  ///< versions of its maps; 0: it has none
+  std::uint64_t hash = 0;      ///< where its light falls, and its row or cascades
+  std::uint64_t maps = 0;      ///< versions of its maps; 0: it has none
+  std::uint64_t composed = 0;  ///< what later modules change its visibilities by
 };
 
 /// The same of a view.
@@ -36,8 +37,9 @@ struct ListInputs {
   std::vector<LightInputs> directional;
 };
 
-/// For each light of `now` its index in `last`, or GLOAM_LIGHT_CHANGED if it is not there or has changed: local lights,
-/// and from GLOAM_MAX_LOCAL_LIGHTS on directional ones. All have changed if `shared` differs.
+/// For each light of `now` its index in `last`, or GLOAM_LIGHT_CHANGED if it is not there or has changed. Plus
+/// GLOAM_LIGHT_RECOMPOSED if only LightInputs::composed has changed. Local lights, and from GLOAM_MAX_LOCAL_LIGHTS on
+/// directional ones. All have changed if `shared` differs.
 [[nodiscard]] std::vector<std::uint32_t> last_indices(const ListInputs& last, const ListInputs& now);
 /// Whether a light with maps has not changed: without one, keys of tiles are of no use. indices: last_indices().
 [[nodiscard]] bool keeps_any(const ListInputs& now, std::span<const std::uint32_t> indices);

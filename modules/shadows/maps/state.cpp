@@ -24,7 +24,9 @@ void ShadowStates::begin(gpu::Device& device) {
   has_traced_ = false;
   if (scratch_frame_ + kFramesKept < frame) scratch_.release(device);
   staging_frame_ = frame;
-  std::erase_if(views_, [&](const auto& entry) { return entry.second.last_frame + kFramesKept < frame; });
+  const auto is_unused = [&](const auto& entry) { return entry.second.last_frame + kFramesKept < frame; };
+  std::erase_if(views_, is_unused);
+  std::erase_if(extra_maps_, is_unused);
 }
 
 ViewMapState& ShadowStates::view(std::uint64_t world, const ViewFaces& faces, ViewId user) {
@@ -46,7 +48,14 @@ void ShadowStates::skip_frame(std::uint64_t world, const ViewFaces& faces) {
   if (found->second.users.size() <= 1) found->second.frame.drawn.clear();
 }
 
+ExtraMapState& ShadowStates::extra_maps(std::uint64_t world, ViewId view) {
+  ExtraMapState& found = extra_maps_[{world, view.value}];
+  found.last_frame = device_->frame_number();
+  return found;
+}
+
 void ShadowStates::release_view(ViewId view) {
+  std::erase_if(extra_maps_, [&](const auto& entry) { return entry.first.second == view.value; });
   for (auto at = views_.begin(); at != views_.end();) {
     std::set<std::uint32_t>& users = at->second.users;
     const bool last = users.erase(view.value) > 0 && users.empty();
@@ -72,6 +81,7 @@ Result<const ShadowScratch*> ShadowStates::scratch(std::uint64_t texels) {
 void ShadowStates::release() {
   if (device_ != nullptr) scratch_.release(*device_);
   views_.clear();
+  extra_maps_.clear();
   staging_.reset();
   traced_staging_.reset();
   has_traced_ = false;

@@ -6,6 +6,8 @@
 #include <map>
 #include <memory>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "engine/core/result.h"
 #include "engine/frame/transfers/upload.h"
@@ -15,6 +17,15 @@
 #include "modules/shadows/maps/scratch.h"
 
 namespace gloam {
+
+/// State of a view's maps outside the standard atlas (ShadowMapDrawer::draw_kept), after the last committed frame.
+struct ExtraMapState {
+  std::vector<std::pair<FaceKey, AtlasSquare>> places;
+  ShadowCache cache;
+  std::uint32_t size = 0;        ///< texels of the atlas' side
+  AtlasSide side;                ///< changes in frames that are given up, too
+  std::uint64_t last_frame = 0;  ///< Device::frame_number of its last use
+};
 
 /// The state of each view's maps, and the module's GPU memory without contents that outlive a frame: staging memory and
 /// scratch images.
@@ -35,6 +46,8 @@ class ShadowStates {
   [[nodiscard]] const ViewMapState* find(std::uint64_t world, const ViewFaces& faces) const;
   /// Resets the state's counters and its list of drawn faces. For frames of the view that draw no maps.
   void skip_frame(std::uint64_t world, const ViewFaces& faces);
+  /// The state of the view's maps outside the standard atlas; empty at the first call.
+  [[nodiscard]] ExtraMapState& extra_maps(std::uint64_t world, ViewId view);
   /// Forgets what only this view uses.
   void release_view(ViewId view);
   /// Staging memory of this frame for copies into images.
@@ -57,6 +70,7 @@ class ShadowStates {
 
   gpu::Device* device_ = nullptr;
   std::map<Key, ViewMapState> views_;
+  std::map<std::pair<std::uint64_t, std::uint32_t>, ExtraMapState> extra_maps_;  ///< by world and view
   std::unique_ptr<UploadRing> staging_;
   std::unique_ptr<UploadRing> traced_staging_;
   bool has_traced_ = false;  ///< the newest frame used traced_staging()

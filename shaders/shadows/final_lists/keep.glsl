@@ -10,8 +10,9 @@
 // A run of a tile's entries in the frame before.
 struct KeptRun {
   uint first;
-  uint count;  // GLOAM_LIGHT_CHANGED: nothing of it can be kept
-  uint next;   // where the search for the next light begins
+  uint count;     // GLOAM_LIGHT_CHANGED: nothing of it can be kept
+  uint next;      // where the search for the next light begins
+  uint composed;  // KeptTile::composed
 };
 
 struct LastTile {
@@ -19,12 +20,13 @@ struct LastTile {
 };
 
 LastTile no_last_tile() {
-  const KeptRun none = KeptRun(0u, GLOAM_LIGHT_CHANGED, 0u);
+  const KeptRun none = KeptRun(0u, GLOAM_LIGHT_CHANGED, 0u, 0u);
   return LastTile(none, none);
 }
 
 #ifdef GLOAM_SHADOWS_KEEP
 #include "shaders/shadows/final_lists/tile_key.glsl"
+#include "shaders/shadows/kept_tiles_api.glsl"
 
 layout(set = 0, binding = 24, scalar) readonly buffer ReservedTiles { uint reserved_tiles[]; };  // as in generate.glsl
 // Of the frame before:
@@ -46,11 +48,11 @@ layout(constant_id = 19) const uint kVisibilityBits = 8u;  // bits of a visibili
 
 // Notes a tile's key for the next frame; finish.glsl adds its list.
 void note_key(uint tile_index, uvec4 key) {
-  kept_tiles[tile_index] = KeptTile(key, GLOAM_NO_FINAL_LIST, GLOAM_NO_FINAL_LIST, 0u, 0u);
+  kept_tiles[tile_index] = KeptTile(key, GLOAM_NO_FINAL_LIST, GLOAM_NO_FINAL_LIST, 0u, 0u, 0u);
 }
 
-KeptRun run_of(uint first, uint count) {
-  return KeptRun(first, count <= GLOAM_MOST_KEPT_LIGHTS ? count : GLOAM_LIGHT_CHANGED, 0u);
+KeptRun run_of(uint first, uint count, uint composed) {
+  return KeptRun(first, count <= GLOAM_MOST_KEPT_LIGHTS ? count : GLOAM_LIGHT_CHANGED, 0u, composed);
 }
 
 // What the tile can keep. Notes its key.
@@ -59,13 +61,36 @@ LastTile last_tile(uvec2 tile, uint tile_index) {
   note_key(tile_index, key);
   KeptTile last = last_tiles[tile_index];
   if (last.key != key || last.local_first == GLOAM_NO_FINAL_LIST) return no_last_tile();
-  return LastTile(run_of(last.directional_first, last.counts >> 16), run_of(last.local_first, last.counts & 0xFFFFu));
+  return LastTile(run_of(last.directional_first, last.counts >> 16, last.composed),
+                  run_of(last.local_first, last.counts & 0xFFFFu, last.composed));
+}
+
+uint last_index_of(bool directional, uint light) {
+  return last_indices[light + (directional ? uint(GLOAM_MAX_LOCAL_LIGHTS) : 0u)];
 }
 
 // The light's index in the frame before; GLOAM_LIGHT_CHANGED if its visibilities cannot be kept.
 uint last_index(KeptRun run, bool directional, uint light) {
-  if (run.count == GLOAM_LIGHT_CHANGED) return GLOAM_LIGHT_CHANGED;
-  return last_indices[light + (directional ? uint(GLOAM_MAX_LOCAL_LIGHTS) : 0u)];
+  uint last = run.count == GLOAM_LIGHT_CHANGED ? GLOAM_LIGHT_CHANGED : last_index_of(directional, light);
+  if (last == GLOAM_LIGHT_CHANGED || (last & GLOAM_LIGHT_RECOMPOSED) == 0u) return last;
+  last &= ~GLOAM_LIGHT_RECOMPOSED;
+  return (run.composed & kept_light_bit(directional, last)) != 0u ? GLOAM_LIGHT_CHANGED : last;
+}
+
+uint composed_lights = 0u, anew_lights = 0u;  // of the thread's tile, as in KeptTile
+
+// Notes in which of the sets the light is. last: as last_index().
+void note_light(KeptRun run, uint last, bool directional, uint light) {
+  uint bit = kept_light_bit(directional, light);
+  bool kept = last != GLOAM_LIGHT_CHANGED;
+  if (!kept || (last_index_of(directional, light) & GLOAM_LIGHT_RECOMPOSED) != 0u) anew_lights |= bit;
+  if (kept && (run.composed & kept_light_bit(directional, last)) != 0u) composed_lights |= bit;
+}
+
+// After the tile's last light.
+void note_lights(uint tile_index) {
+  kept_tiles[tile_index].composed = composed_lights;
+  kept_tiles[tile_index].anew = anew_lights;
 }
 
 // The slot that the light had, GLOAM_ALL_LIT, or GLOAM_ALL_UNLIT: lists hold no lights that are unlit as a whole.
@@ -106,6 +131,8 @@ uint keep_slot(inout KeptRun run, uint last, uint tile_index) {
 void note_key(uint tile_index, uvec4 key) {}
 LastTile last_tile(uvec2 tile, uint tile_index) { return no_last_tile(); }
 uint last_index(KeptRun run, bool directional, uint light) { return GLOAM_LIGHT_CHANGED; }
+void note_light(KeptRun run, uint last, bool directional, uint light) {}
+void note_lights(uint tile_index) {}
 uint keep_slot(inout KeptRun run, uint last, uint tile_index) { return GLOAM_NO_ROOM; }
 #endif
 

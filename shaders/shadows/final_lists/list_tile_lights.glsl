@@ -69,6 +69,7 @@ uint kept;        // and those that keep their visibilities
 
 void add_light(uint entry, uint tile_index, bool directional, uint light, bool two_groups, inout KeptRun run) {
   uint slot = GLOAM_ALL_LIT, last = last_index(run, directional, light);
+  note_light(run, last, directional, light);
   if (!casts(directional, light)) {
     ++unshadowed;
   } else if (last != GLOAM_LIGHT_CHANGED) {
@@ -125,6 +126,7 @@ void main() {
   for (uint i = 0u; i < suns; ++i) add_light(first.x + i, tile_index, true, i, two_groups, last.suns);
   for (uint i = 0u; i < count; ++i)
     add_light(first.y + i, tile_index, false, list_light(list.x, i), two_groups, last.local);
+  note_lights(tile_index);
   imageStore(final_tiles, ivec2(at), uvec4(first, suns << 16 | count, 0u));
   atomicAdd(counters.tiles, 1u);
   if (suns + count != 0u) atomicAdd(counters.candidates, suns + count);

@@ -116,6 +116,9 @@ inline Pair make_pair(const Settings& s) {
   c.size = static_cast<float>(kFace);
   c.origin = vec2(kFace, 0.0f);
   c.first_tile = Wall::first();
+  c.end_tile = Wall::end();
+  c.pair = 2;
+  c.first_item = 9;
   c.light = kLight;
   const double per_m = kFace / (2.0 * pair.pose.half_extent_m);
   c.row_u = vec4(dvec4(per_m, 0.0, 0.0, 0.5 * kFace - per_m * pair.pose.origin.x));
@@ -228,7 +231,7 @@ inline Lists make_lists(const Settings& s, std::mt19937& random, bool split) {
   }
   lists.counters[0].slots = lists.end_slot;
   lists.fallback.assign(count, kGuard);
-  lists.kept.assign(count, {uvec4(1), 2, 3, 4, 5});
+  lists.kept.assign(count, {uvec4(1), 2, 3, 4, 5, 6});
   return lists;
 }
 

@@ -24,7 +24,7 @@
 #include "tests/modules/shadows/support/final_lists/kernels.h"
 #include "tests/modules/shadows/support/maps.h"
 
-// Runs compose_local.comp and compose_suns.comp on a wall with synthetic lists, and compares with a model in double.
+// Runs tiles_….comp and compose_….comp on a wall with synthetic lists, and compares with a model in double.
 
 namespace gloam {
 namespace {
@@ -40,54 +40,107 @@ class ComposeCloseup : public test::ShadowKernelTest {
     if (s.directional) return s.standard ? compose_suns_standard_comp : compose_suns_comp;
     return s.standard ? compose_local_standard_comp : compose_local_comp;
   }
-  void compose(const Wall& wall, const Pair& pair, const Settings& s, Lists& lists) {
-    test::ShadowMaps maps(device(), 2 * kFace);
-    maps.add_face(pair.depths, uvec2(kFace, 0), kFace, s.directional);
-    shaders::FinalGrid grid{};
-    grid.tiles = Wall::tiles();
-    grid.slot_capacity = s.slots_left ? lists.end_slot + *s.slots_left : 1u << 22;
-    shaders::ShadowBlock block = test::shadow_block(maps);
-    std::vector<shaders::ShadowRow> rows(1);
-    append_cascade_rows({}, block, rows);
-    std::vector<vec4> lights(std::size_t{3} * 64, vec4(0.0f));
-    lights[3 * kLight] = vec4(vec3(pair.pose.origin), 1.0f / 400.0f);
-    lights[3 * kLight + 1] = vec4(5.0f, 5.0f, 5.0f, 0.0f);
-    lights[3 * kLight + 2] = vec4(0.0f, 0.0f, -1.0f, 1.0f);
-    const std::vector<std::uint32_t> white(1, ~0u);
+  /// What both kernels read.
+  struct Inputs {
+    Inputs(gpu::Device& device, const Wall& wall, const Pair& pair, const Settings& s, const Lists& lists)
+        : maps(device, 2 * kFace), view{view_constants(wall.view)} {
+      maps.add_face(pair.depths, uvec2(kFace, 0), kFace, s.directional);
+      grid[0].tiles = Wall::tiles();
+      grid[0].slot_capacity = s.slots_left ? lists.end_slot + *s.slots_left : 1u << 22;
+      block[0] = test::shadow_block(maps);
+      append_cascade_rows({}, block[0], rows);
+      lights[3 * kLight] = vec4(vec3(pair.pose.origin), 1.0f / 400.0f);
+      lights[3 * kLight + 1] = vec4(5.0f, 5.0f, 5.0f, 0.0f);
+      lights[3 * kLight + 2] = vec4(0.0f, 0.0f, -1.0f, 1.0f);
+    }
+    void bind(test::ListDispatch& d, const Pair& pair) const {
+      const std::vector<std::uint32_t> white(1, ~0u);
+      d.input(0, view);
+      d.input(1, std::vector{pair.constants});
+      d.input(2, grid);
+      d.sampled(6, gpu::Format::rgba32_float, {3, 64}, lights);
+      d.input(12, block);
+      d.sampled(13, gpu::Format::rgba32_float, {GLOAM_SHADOW_ROW_TEXELS, static_cast<std::uint32_t>(rows.size())},
+                rows);
+      d.sampled(14, maps.atlas_image());
+      d.sampled(15, maps.pyramid_image());
+      d.sampled(16, gpu::Format::rgba8_unorm, {1, 1}, white, gpu::ImageShape::array);
+      d.sampled(17, gpu::Format::rgba8_unorm, {1, 1}, white, gpu::ImageShape::array);
+    }
+    test::ShadowMaps maps;
+    std::vector<shaders::ViewConstants> view;
+    std::vector<shaders::FinalGrid> grid{1};
+    std::vector<shaders::ShadowBlock> block{1};
+    std::vector<shaders::ShadowRow> rows{1};
+    std::vector<vec4> lights{std::size_t{3} * 64, vec4(0.0f)};
+  };
+  void run(test::ListDispatch& d, gpu::ShaderCode code, const gpu::SpecConstants& constants, uvec2 groups) {
+    const auto pipeline =
+        test::value_of(device().create_pipeline(gpu::ComputePipelineDesc{"closeup", "test", code, constants}));
+    d.run(pipeline, groups);
+    device().destroy(pipeline);
+  }
+  static test::ProbeSettings filter_of(const Settings& s) {
+    return {.filter = s.standard ? 3u : 0u, .levels = (1u << s.bits) - 1, .standard = s.standard};
+  }
+
+  /// The listed tiles of a pair, and its indirect command.
+  struct PairTiles {
+    std::vector<uvec4> commands{4, uvec4(0)};
+    std::vector<uvec2> items;
+  };
+  /// Runs the kernel that lists tiles.
+  PairTiles list_tiles(const Inputs& inputs, const Wall& wall, const Pair& pair, const Settings& s, Lists& lists,
+                       bool has_anew) {
+    using namespace shaders::closeups;
+    PairTiles tiles;
+    tiles.items.assign(pair.constants.first_item + lists.tiles.size() + 1, uvec2(kGuard));
     test::ListDispatch d(device());
-    d.input(0, std::vector{view_constants(wall.view)});
-    d.input(1, std::vector{pair.constants});
-    d.input(2, std::vector{grid});
+    inputs.bind(d, pair);
+    d.sampled(3, gpu::Format::rg32_float, Wall::tiles(), wall.bounds);
+    d.sampled(7, gpu::Format::rgba32_uint, Wall::tiles(), lists.tiles);
+    d.input(8, lists.entries);
+    d.input(9, lists.kept);
+    d.in_out(10, tiles.commands);
+    d.in_out(11, tiles.items);
+    d.push(has_anew ? 1u : 0u);
+    run(d, s.directional ? tiles_suns_comp : tiles_local_comp, filter_of(s).constants(),
+        (Wall::end() - Wall::first() + 7u) / 8u);
+    const std::size_t first = pair.constants.first_item, count = tiles.commands[pair.constants.pair].w;
+    EXPECT_EQ(std::ranges::count(tiles.items, uvec2(kGuard)), std::ptrdiff_t(tiles.items.size() - count));
+    std::sort(tiles.items.begin() + std::ptrdiff_t(first), tiles.items.begin() + std::ptrdiff_t(first + count),
+              [](uvec2 a, uvec2 b) { return a.x < b.x; });
+    for (std::size_t i = 0; i < count; ++i)
+      EXPECT_NE(tiles.items[first + i].x, i == 0 ? kGuard : tiles.items[first + i - 1].x) << "listed twice";
+    return tiles;
+  }
+  void compose(const Wall& wall, const Pair& pair, const Settings& s, Lists& lists) {
+    const Inputs inputs(device(), wall, pair, s, lists);
+    PairTiles tiles = list_tiles(inputs, wall, pair, s, lists, false);
+    const uvec4 command = tiles.commands[pair.constants.pair];
+    ASSERT_EQ(command, uvec4(GLOAM_PAIRS_ROW, (command.w + GLOAM_PAIRS_ROW - 1) / GLOAM_PAIRS_ROW, 1, command.w));
+    test::ListDispatch d(device());
+    inputs.bind(d, pair);
     d.sampled(3, gpu::Format::r32_float, Wall::size(), wall.depth);
     d.sampled(4, gpu::Format::rg32_uint, Wall::size(), wall.normals);
     d.sampled(5, gpu::Format::rgba8_unorm, Wall::size(), wall.base_color);
-    d.sampled(6, gpu::Format::rgba32_float, {3, 64}, lights);
     d.storage_image(7, gpu::Format::rgba32_uint, Wall::tiles(), lists.tiles);
     d.in_out(8, lists.entries);
     d.in_out(9, lists.words[0]);
     d.in_out(10, lists.words[1]);
     d.in_out(11, lists.counters);
-    d.input(12, std::vector{block});
-    d.sampled(13, gpu::Format::rgba32_float, {GLOAM_SHADOW_ROW_TEXELS, static_cast<std::uint32_t>(rows.size())}, rows);
-    d.sampled(14, maps.atlas_image());
-    d.sampled(15, maps.pyramid_image());
-    d.sampled(16, gpu::Format::rgba8_unorm, {1, 1}, white, gpu::ImageShape::array);
-    d.sampled(17, gpu::Format::rgba8_unorm, {1, 1}, white, gpu::ImageShape::array);
     d.in_out(18, lists.commands);
     d.in_out(19, lists.fallback);
-    d.sampled(20, gpu::Format::rg32_float, Wall::tiles(), wall.bounds);
+    d.input(20, tiles.commands);
     d.sampled(21, gpu::Format::rg32_uint, {1, 1}, std::vector<uvec2>(1));     // not read: no terminator
     d.sampled(22, gpu::Format::rgba16_float, {1, 1}, std::vector<uvec2>(1));  // not read: no light passes through
     d.in_out(23, lists.kept);
-    test::ProbeSettings filter{.filter = s.standard ? 3u : 0u, .levels = (1u << s.bits) - 1, .standard = s.standard};
-    auto constants = filter.constants();
+    d.input(24, tiles.items);
+    auto constants = filter_of(s).constants();
     constants.set("local_size_x", s.threads);
     constants.set("kVisibilityBits", s.bits);
     constants.set("kReuse", 1u);
-    const auto pipeline = test::value_of(
-        device().create_pipeline(gpu::ComputePipelineDesc{"closeup_compose", "test", code_of(s), constants}));
-    d.run(pipeline, Wall::end() - Wall::first());
-    device().destroy(pipeline);
+    run(d, code_of(s), constants, uvec2(command));
   }
 
   struct Tally {
@@ -179,7 +232,8 @@ class ComposeCloseup : public test::ShadowKernelTest {
     }
     check_pixels(wall, pair, s, tile, old_slot, slot, before, after, tally);
   }
-  /// A tile of which anything has changed is not kept for the next frame; all others are.
+  /// Tiles note for the next frame that the light is composed, if anything of it has changed. Fallback tiles are not
+  /// kept.
   static void check_kept(const Settings& s, std::uint32_t tile, Lists& before, Lists& after) {
     const uvec4 texel = before.tiles[tile];
     bool changed = after.tiles[tile] != texel;
@@ -192,8 +246,11 @@ class ComposeCloseup : public test::ShadowKernelTest {
           changed = changed || after.word(s, slot, word) != before.word(s, slot, word);
       }
     const shaders::KeptTile& kept = after.kept[tile];
-    EXPECT_EQ(kept.local_first, changed ? GLOAM_NO_FINAL_LIST : 3u);
-    EXPECT_EQ(uvec4(kept.key.x, kept.directional_first, kept.counts, kept.reserved), uvec4(1, 2, 4, 5));
+    const bool given_up = after.tiles[tile] != texel;
+    const std::uint32_t bit = s.directional ? 1u << (28 + kLight % 4) : 1u << kLight % 28;
+    EXPECT_EQ(kept.local_first, given_up ? GLOAM_NO_FINAL_LIST : 3u);
+    EXPECT_EQ(kept.composed, changed ? 5u | bit : 5u);
+    EXPECT_EQ(uvec4(kept.key.x, kept.directional_first, kept.counts, kept.anew), uvec4(1, 2, 4, 6));
   }
   static std::uint32_t old_steps(const Settings& s, std::uint32_t slot, std::uint32_t pixel, Lists& before) {
     return slot == GLOAM_ALL_LIT ? (1u << s.bits) - 1 : before.steps(s, slot, pixel);
@@ -285,6 +342,50 @@ TEST_F(ComposeCloseup, with_the_standard_filter_is_certain_away_from_silhouettes
       EXPECT_GT(tally.new_slots + tally.kept_slots, 2u);
       if (HasFailure()) return;
     }
+}
+
+TEST_F(ComposeCloseup, again_changes_nothing) {
+  for (const bool directional : {false, true}) {
+    const Settings s{.directional = directional, .threads = 32};
+    std::mt19937 random(31);
+    const Wall wall = make_wall(31);
+    const Pair pair = make_pair(s);
+    Lists once = make_lists(s, random, false);
+    const Lists before = once;
+    compose(wall, pair, s, once);
+    EXPECT_NE(once.entries, before.entries);
+    Lists twice = once;
+    compose(wall, pair, s, twice);
+    EXPECT_EQ(twice.entries, once.entries);
+    EXPECT_EQ(twice.words, once.words);
+    EXPECT_EQ(twice.tiles, once.tiles);
+    EXPECT_EQ(twice.counters[0].slots, once.counters[0].slots);
+  }
+}
+
+TEST_F(ComposeCloseup, looks_only_at_tiles_whose_light_is_not_composed_already) {
+  for (const bool directional : {false, true}) {
+    const Settings s{.directional = directional};
+    std::mt19937 random(41);
+    const Wall wall = make_wall(41);
+    const Pair pair = make_pair(s);
+    Lists lists = make_lists(s, random, false);
+    const std::uint32_t bit = directional ? 1u << (28 + kLight % 4) : 1u << kLight % 28;
+    for (shaders::KeptTile& kept : lists.kept) kept.anew = random() % 2 == 0 ? ~bit : bit;
+    const Inputs inputs(device(), wall, pair, s, lists);
+    const PairTiles all = list_tiles(inputs, wall, pair, s, lists, false);
+    const PairTiles some = list_tiles(inputs, wall, pair, s, lists, true);
+    std::vector<uvec2> expected(pair.constants.first_item, uvec2(kGuard));
+    for (std::size_t i = pair.constants.first_item; all.items[i].x != kGuard; ++i)
+      if (lists.kept[(all.items[i].x >> 16) * Wall::tiles().x + (all.items[i].x & 0xFFFFu)].anew == bit)
+        expected.push_back(all.items[i]);
+    const std::size_t count = expected.size() - pair.constants.first_item;
+    EXPECT_GT(count, 4u);
+    EXPECT_LT(count, all.commands[pair.constants.pair].w);
+    EXPECT_EQ(some.commands[pair.constants.pair].w, count);
+    expected.resize(some.items.size(), uvec2(kGuard));
+    EXPECT_EQ(some.items, expected);
+  }
 }
 
 TEST_F(ComposeCloseup, without_a_slot_gives_the_tile_up_and_says_so) {

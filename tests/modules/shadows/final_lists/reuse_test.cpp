@@ -46,6 +46,21 @@ TEST(LastIndices, of_a_light_that_changed_is_new_or_is_another_entity_there_are_
   EXPECT_EQ(std::ranges::count(indices, kChanged), static_cast<std::ptrdiff_t>(indices.size()));
 }
 
+TEST(LastIndices, mark_lights_whose_visibilities_later_modules_change_otherwise) {
+  const ListInputs last = three_lights_and_a_sun();
+  ListInputs now = last;
+  std::swap(now.local[0], now.local[2]);
+  now.local[0].composed = 7;
+  now.directional[0].composed = 7;
+  now.local[1].composed = now.local[1].hash = 7;
+  const std::vector<std::uint32_t> indices = last_indices(last, now);
+  EXPECT_EQ(indices[0], 2u | GLOAM_LIGHT_RECOMPOSED);
+  EXPECT_EQ(indices[1], kChanged) << "the light itself has changed";
+  EXPECT_EQ(indices[2], 0u);
+  EXPECT_EQ(indices[GLOAM_MAX_LOCAL_LIGHTS], GLOAM_LIGHT_RECOMPOSED);
+  EXPECT_TRUE(keeps_any(now, indices));
+}
+
 TEST(LastIndices, keep_something_only_if_a_light_with_maps_has_not_changed) {
   const ListInputs last = three_lights_and_a_sun();
   ListInputs now = last;
