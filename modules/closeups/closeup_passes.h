@@ -19,8 +19,8 @@ namespace gloam {
 
 /// For the pairs of the CloseupFrame on the board: draws their maps, unless those of an earlier frame still hold, and
 /// lowers the visibilities in the final lists on the board by what the subjects hide. Also adds the subjects of pairs
-/// with CloseupFrame::in_overlay to the overlay. Does nothing in a frame without final lists. Returns the number of maps
-/// that were drawn.
+/// with CloseupFrame::in_overlay to the overlay. Does nothing in a frame without final lists. Returns the number of
+/// maps that were drawn.
 std::uint32_t add_closeup_passes(FrameBuilder& frame, const CloseupKnobs& knobs);
 
 }  // namespace gloam

@@ -13,7 +13,6 @@
 #include "shaders/closeups/closeups_shared.h"
 #include "shaders/lights/lights_api.glsl"
 #include "shaders/render/view_api.glsl"
-#include "shaders/shadows/final_lists_shared.h"
 #include "shaders/shadows/kept_tiles_api.glsl"
 #include "shaders/shadows/shadows_api.glsl"
 

@@ -37,6 +37,11 @@ void write_final_lists(ComputePass& pass, FinalLists& lists) {
   lists.kept_tiles = pass.write("kept_tiles", lists.kept_tiles);
 }
 
+/// Pairs whose tiles are listed together: at most this many, with at most as many tiles as this many views have. A
+/// view's pairs seldom need more, and with many pairs the lists stay small.
+constexpr std::size_t kMostPairsAtATime = 64;
+constexpr std::uint32_t kListedViews = 4;
+
 /// The listed tiles of pairs, and one indirect command for each pair.
 struct PairTiles {
   BufferRef commands;
@@ -51,11 +56,15 @@ BufferRef create(FrameBuilder& frame, const char* name, std::uint64_t bytes) {
   return frame.graph().create_buffer(desc);
 }
 
-PairTiles add_tile_lists(FrameBuilder& frame, std::span<const CloseupView> pairs,
-                         std::span<const shaders::CloseupConstants> constants, const ShadowsOutputs& shadows,
-                         std::uint64_t items) {
-  PairTiles tiles{create(frame, "closeup_commands", pairs.size() * sizeof(uvec4)),
-                  create(frame, "closeup_tiles", items * sizeof(uvec2))};
+/// Lists of the tiles of some pairs: both buffers are as large for any number of pairs.
+PairTiles create_tile_lists(FrameBuilder& frame, std::uint64_t items) {
+  return {create(frame, "closeup_commands", kMostPairsAtATime * sizeof(uvec4)),
+          create(frame, "closeup_tiles", items * sizeof(uvec2))};
+}
+
+void add_tile_lists(FrameBuilder& frame, std::span<const CloseupView> pairs,
+                    std::span<const shaders::CloseupConstants> constants, const ShadowsOutputs& shadows,
+                    PairTiles& tiles) {
   PassBuilder start = frame.graph().add_pass("closeup_tiles_start", frame.module());
   tiles.commands = start.write(tiles.commands, gpu::Access::transfer_write);
   start.execute([commands = tiles.commands, bytes = pairs.size() * sizeof(uvec4)](PassContext& context) {
@@ -63,24 +72,45 @@ PairTiles add_tile_lists(FrameBuilder& frame, std::span<const CloseupView> pairs
   });
   const FinalLists& lists = *frame.get<ShadowsOutputs>().final_lists;
   ComputePass pass(frame, "closeup_tiles", tiles_program(shadows, pairs.front().directional));
+  read_geometry(pass, frame.get<GeometryOutputs>());
+  read_shadows(pass, shadows);
+  pass.read("final_grid", lists.grid);
+  pass.read("final_tiles", lists.tiles);
+  pass.read("entries", lists.entries);
+  pass.read("kept_tiles", lists.has_anew ? lists.kept_tiles : lists.entries);  // not read without has_anew
+  tiles.commands = pass.write("pair_commands", tiles.commands);
+  tiles.items = pass.write("pair_tiles", tiles.items);
+  pass.push(lists.has_anew ? 1u : 0u);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     pass.use(tiles_program(shadows, pairs[i].directional));
-    if (i == 0) {
-      read_geometry(pass, frame.get<GeometryOutputs>());
-      read_shadows(pass, shadows);
-      pass.read("final_grid", lists.grid);
-      pass.read("final_tiles", lists.tiles);
-      pass.read("entries", lists.entries);
-      pass.read("kept_tiles", lists.has_anew ? lists.kept_tiles : lists.entries);  // not read without has_anew
-      tiles.commands = pass.write("pair_commands", tiles.commands);
-      tiles.items = pass.write("pair_tiles", tiles.items);
-      pass.push(lists.has_anew ? 1u : 0u);
-    }
     pass.read_if_declared("light_texels", frame.get<LightsOutputs>().texels);
     pass.uniform("closeup", constants[i]);
     pass.dispatch_over(pairs[i].tiles.end - pairs[i].tiles.begin);
   }
-  return tiles;
+}
+
+/// Lowers visibilities in the listed tiles.
+void add_compose_pass(FrameBuilder& frame, std::span<const CloseupView> pairs,
+                      std::span<const shaders::CloseupConstants> constants, const ShadowsOutputs& shadows,
+                      const PairTiles& tiles) {
+  const gpu::DeviceInfo& device = frame.services().device.info();
+  FinalLists& lists = *frame.get<ShadowsOutputs>().final_lists;
+  ComputePass pass(frame, "closeup_compose", compose_program(shadows, pairs.front().directional, device));
+  read_geometry(pass, frame.get<GeometryOutputs>());
+  read_shadows(pass, shadows);
+  pass.read("light_texels", frame.get<LightsOutputs>().texels);
+  pass.read("final_grid", lists.grid);
+  pass.read("pair_commands", tiles.commands);
+  pass.read("pair_tiles", tiles.items);
+  write_final_lists(pass, lists);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (i > 0) {
+      pass.barrier();  // pairs may share tiles
+      pass.use(compose_program(shadows, pairs[i].directional, device));
+    }
+    pass.uniform("closeup", constants[i]);
+    pass.dispatch_indirect(tiles.commands, i * sizeof(uvec4));
+  }
 }
 
 /// What the content of a pair's map, and the look at it, depend on besides casters, view and light.
@@ -130,39 +160,32 @@ ComposedLights composed_lights(std::span<const CloseupView> pairs, const Closeup
   ComposedLights composed;
   for (const CloseupView& pair : pairs) {
     auto at = std::ranges::find(composed.lights, pair.light, &ComposedLights::OfLight::light);
-    if (at == composed.lights.end()) at = composed.lights.insert(at, {pair.light, knobs.batch * 2 + (knobs.single_fetches ? 1u : 0u)});
+    if (at == composed.lights.end())
+      at = composed.lights.insert(at, {pair.light, knobs.batch * 2 + (knobs.single_fetches ? 1u : 0u)});
     at->hash = Hasher().value(at->hash).value(hash_of(pair)).digest();
   }
   return composed;
 }
 
 void add_composition(FrameBuilder& frame, std::span<const CloseupView> pairs,
-                     std::span<const shaders::CloseupConstants> all_constants, const ShadowsOutputs& shadows) {
-  std::vector<shaders::CloseupConstants> constants(all_constants.begin(), all_constants.end());
-  std::uint32_t items = 0;
-  for (std::uint32_t i = 0; i < constants.size(); ++i) {
-    constants[i].pair = i;
-    constants[i].first_item = items;
-    items += static_cast<std::uint32_t>(pairs[i].tiles.tiles());
-  }
-  const PairTiles tiles = add_tile_lists(frame, pairs, constants, shadows, items);
-  const gpu::DeviceInfo& device = frame.services().device.info();
-  FinalLists& lists = *frame.get<ShadowsOutputs>().final_lists;
-  ComputePass pass(frame, "closeup_compose", compose_program(shadows, pairs.front().directional, device));
-  read_geometry(pass, frame.get<GeometryOutputs>());
-  read_shadows(pass, shadows);
-  pass.read("light_texels", frame.get<LightsOutputs>().texels);
-  pass.read("final_grid", lists.grid);
-  pass.read("pair_commands", tiles.commands);
-  pass.read("pair_tiles", tiles.items);
-  write_final_lists(pass, lists);
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (i > 0) {
-      pass.barrier();  // pairs may share tiles
-      pass.use(compose_program(shadows, pairs[i].directional, device));
+                     std::span<const shaders::CloseupConstants> constants, const ShadowsOutputs& shadows) {
+  const gpu::ImageDesc& view_tiles = frame.graph().desc(frame.get<ShadowsOutputs>().final_lists->tiles);
+  const std::uint64_t room = std::uint64_t{kListedViews} * view_tiles.width * view_tiles.height;
+  PairTiles tiles = create_tile_lists(frame, room);
+  for (std::size_t first = 0; first < pairs.size();) {
+    std::vector<shaders::CloseupConstants> together;
+    std::uint64_t items = 0;
+    for (std::size_t i = first; i < pairs.size() && together.size() < kMostPairsAtATime; ++i) {
+      if (items + pairs[i].tiles.tiles() > room) break;
+      together.push_back(constants[i]);
+      together.back().pair = static_cast<std::uint32_t>(together.size() - 1);
+      together.back().first_item = static_cast<std::uint32_t>(items);
+      items += pairs[i].tiles.tiles();
     }
-    pass.uniform("closeup", constants[i]);
-    pass.dispatch_indirect(tiles.commands, i * sizeof(uvec4));
+    const std::span<const CloseupView> some = pairs.subspan(first, together.size());
+    add_tile_lists(frame, some, together, shadows, tiles);
+    add_compose_pass(frame, some, together, shadows, tiles);
+    first += together.size();
   }
 }
 

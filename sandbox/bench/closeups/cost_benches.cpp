@@ -44,7 +44,7 @@ constexpr std::array<const char*, kCloseUpSteps> kCloseUpStepNames = {"draw", "r
 std::optional<Step> close_up_step_of(const PassTime& pass) {
   if (pass.name == "shadow_map_closeup") return kDraw;
   if (pass.name == "shadow_map_closeup_mips") return kResolve;
-  if (pass.name == "closeup_compose") return kCompose;
+  if (pass.name == "closeup_compose" || pass.name.starts_with("closeup_tiles")) return kCompose;
   if (pass.module == "closeups" || pass.name.starts_with("shadow_overlay")) return kTransfer;
   return std::nullopt;
 }

@@ -31,12 +31,15 @@ class CloseupLimits : public CloseupScene {
     put_light(day, dvec3(0.0), dvec3(0.5, -1.0, -0.4), 512);
     set("shadows.atlas", "2048");
   }
-  void expect_no_closeups(const std::string& what) {
+  /// freed: the memory of kept maps has been freed.
+  void expect_no_closeups(const std::string& what, bool freed = true) {
     EXPECT_FALSE(has_closeup_pass()) << what;
     EXPECT_EQ(counted("closeups.pairs"), 0.0) << what;
     EXPECT_EQ(counted("closeups.tiles"), 0.0) << what;
     renderer->free_idle_memory();
-    EXPECT_EQ(module_state("closeups").gpu_bytes, 0u) << what;
+    if (freed) {
+      EXPECT_EQ(module_state("closeups").gpu_bytes, 0u) << what;
+    }
   }
 
   Figure first, second;
@@ -175,7 +178,7 @@ TEST_F(CloseupLimits, nothing_is_done_without_final_lists) {
     set("shadows.mode", mode);
     draw();
     draw();
-    expect_no_closeups(mode);
+    expect_no_closeups(mode, false);
     const LinearPicture with = linear(settings.id.value);
     set("closeups.max_pairs", "0");
     draw();
@@ -185,8 +188,7 @@ TEST_F(CloseupLimits, nothing_is_done_without_final_lists) {
   }
   set("shadows.mode", "deferred");
   set("closeups.max_pairs", "0");
-  draw();
-  draw();
+  for (std::uint32_t i = 0; i <= kFramesUntilRelease; ++i) draw();
   expect_no_closeups("no room for pairs");
   set("closeups.max_pairs", "8");
   draw();

@@ -49,6 +49,7 @@ class CloseupPairs : public CloseupScene {
   }
   /// Tiles that both subjects together take from lit to unlit, through slots.
   void expect_lit_partly_unlit(LightKind kind) {
+    set("shadows.reuse", "off");  // lists of which entries are kept hold none that a pair has made unlit
     const Entity lamp = put_stage(kind);
     put_halves();
     std::vector<std::vector<std::uint32_t>> slots;
