@@ -55,6 +55,35 @@ float penumbra_texels() {
 }
 #endif
 
+float reach_of(float penumbra) { return 2.0 * penumbra + 14.0; }
+
+// The nearest depth of texels [low, high] of the face: as nearest_in_face(), but from pyramid texels of about a quarter
+// of the size, and without those beside the rectangle.
+float nearest_between(vec2 low, vec2 high) {
+  low = clamp(low, vec2(0.0), vec2(closeup.size)) * 0.25;
+  high = clamp(high, vec2(0.0), vec2(closeup.size)) * 0.25;
+  int last = floor_log2(closeup.size) - GLOAM_SHADOW_PYRAMID_MIP - 1;
+  // Eight by eight texels hold a square seven texels wide at any position.
+  int level = clamp(ceil_log2(max(max(high.x - low.x, high.y - low.y) / 7.0, 1.0)), 0, last);
+  MipSquare square = mip_square(closeup.origin * 0.25, closeup.size * 0.25, level, shadow_block.atlas_size * 0.25);
+  low /= square.texel;
+  high /= square.texel;
+  vec2 first = floor(low) + 1.0;
+  float nearest = 0.0;
+  for (int i = 0; i < 16; ++i) {
+    vec2 corner = clamp(first + 2.0 * vec2(i & 3, i >> 2), vec2(1.0), vec2(square.size - 1.0));
+    vec4 depth = textureGather(shadow_pyramid, (square.corner + corner) * shadow_texel_size() * vec2(4.0, 2.0));
+    // Columns and rows [corner - 1, corner] and [corner, corner + 1].
+    bvec2 before = lessThanEqual(low, corner), after = greaterThanEqual(high, corner);
+    bvec2 reaches_before = greaterThanEqual(high, corner - 1.0), reaches_after = lessThanEqual(low, corner + 1.0);
+    bvec2 one = bvec2(before.x && reaches_before.x, before.y && reaches_before.y);
+    bvec2 two = bvec2(after.x && reaches_after.x, after.y && reaches_after.y);
+    depth = mix(vec4(0.0), depth, bvec4(one.x && two.y, two.x && two.y, two.x && one.y, one.x && one.y));
+    nearest = max(nearest, nearest_of(depth));
+  }
+  return nearest;
+}
+
 // Whether the subject certainly hides no light from any pixel of the tile: the tile is outside the face, or no depth in
 // the face is near enough to the paths between the tile and the emitter.
 bool subject_is_aside(vec3 light_position, uvec2 tile) {
@@ -80,13 +109,17 @@ bool subject_is_aside(vec3 light_position, uvec2 tile) {
   if (any(outside) || most_w < closeup.near_m) return true;
   if (least_w <= 0.02 * most_w) return false;  // too near to the light's plane for useful bounds
   // Two steps: the nearest depth in a wide search region gives a smaller region.
-  float nearest = 1.0;
+  float nearest = 1.0, widest, unused;
   for (int step = 0; step < 2; ++step) {
+    widest = clamp(penumbra_texels() * (nearest - farthest), 0.0, closeup.size);
     // Wider than the reach of any kernel of a penumbra this wide.
-    float reach = 2.0 * clamp(penumbra_texels() * (nearest - farthest), 0.0, closeup.size) + 14.0, unused;
-    nearest = nearest_in_face(closeup.origin, closeup.size, low - reach, high + reach, unused);
+    nearest = nearest_in_face(closeup.origin, closeup.size, low - reach_of(widest), high + reach_of(widest), unused);
   }
-  return nearest <= 0.999 * farthest;
+  if (nearest <= 0.999 * farthest) return true;
+  // A finer look at the texels that matter. Single fetches lie within half of the widest search region.
+  float reach = reach_of(clamp(penumbra_texels() * (nearest - farthest), 0.0, closeup.size));
+  if (kFilter == 2u) reach = min(reach, 0.5 * max(widest, float(kKernel)) + 10.0);
+  return nearest_between(low - reach, high + reach) <= 0.999 * farthest;
 }
 
 // The place of the light's entry in `entries`; GLOAM_NO_FINAL_LIST if the tile does not list it, or all of it is unlit.

@@ -380,7 +380,7 @@ TEST_F(ComposeCloseup, looks_only_at_tiles_whose_light_is_not_composed_already) 
       if (lists.kept[(all.items[i].x >> 16) * Wall::tiles().x + (all.items[i].x & 0xFFFFu)].anew == bit)
         expected.push_back(all.items[i]);
     const std::size_t count = expected.size() - pair.constants.first_item;
-    EXPECT_GT(count, 4u);
+    EXPECT_GT(count, 2u);
     EXPECT_LT(count, all.commands[pair.constants.pair].w);
     EXPECT_EQ(some.commands[pair.constants.pair].w, count);
     expected.resize(some.items.size(), uvec2(kGuard));
