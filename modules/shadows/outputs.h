@@ -75,8 +75,9 @@ inline constexpr EnumKnob<ShadowReuse> kShadowReuse{
     .name = "shadows.reuse",
     .meaning =
         "visibilities of the last frame that are kept: none, or those of pairs of a tile and a light of which nothing "
-        "has changed, neither pixels nor light nor casters (exact: the picture is the same to the bit); cost and bench "
-        "set off, so that what they measure at rest is what a moving camera pays",
+        "has changed, neither pixels nor light nor casters, and the maps of close-up subjects that hold still (exact: "
+        "the picture is the same to the bit); cost and bench set off, so that what they measure at rest is what a "
+        "moving camera pays",
     .default_value = ShadowReuse::exact,
     .exact = ShadowReuse::off,
     .same_picture = true,

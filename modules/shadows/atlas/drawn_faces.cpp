@@ -226,6 +226,7 @@ std::uint64_t map_salt(const FrameBuilder& frame, const ShadowKnobs& knobs) {
       .value(std::bit_cast<std::uint32_t>(knobs.bias_units))
       .value(knobs.mip_operator)
       .value(knobs.simplified)
+      .value(std::bit_cast<std::uint32_t>(knobs.lod_texels))
       .value(knobs.subsurface_backs)
       .digest();
 }
