@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "engine/core/assert.h"
+#include "engine/core/hash.h"
 #include "modules/lights/knobs.h"
 #include "modules/lights/masks/mask_population.h"
 #include "modules/lights/selection/light_list.h"
@@ -39,6 +40,10 @@ shaders::LocalLight local_light_reach(const VisibleLights& visible, std::size_t 
   shaders::LocalLight reach = visible.block.local[light];
   reach.color = vec3(glm::greaterThan(reach.color, vec3(0.0f)));
   return reach;
+}
+
+std::uint64_t local_lights_hash(const VisibleLights& visible) {
+  return hash_bytes(std::as_bytes(std::span(visible.block.local).first(visible.block.local_count)));
 }
 
 double local_illuminance_at(const VisibleLights& visible, std::size_t light, const vec3& point, const vec3& normal) {

@@ -118,6 +118,9 @@ struct DirectionalLook {
 /// or 0: whether they emit. Camera-relative. light: indexed as LightBlock::local.
 [[nodiscard]] shaders::LocalLight local_light_reach(const VisibleLights& visible, std::size_t light);
 
+/// A hash of all local lights of the view, as LightBlock::local holds them.
+[[nodiscard]] std::uint64_t local_lights_hash(const VisibleLights& visible);
+
 /// Illuminance in lux, the luminance of its linear RGB, that a light sheds on a camera-relative point of a surface, if
 /// nothing casts a shadow. normal: unit length. light: indexed as LightBlock::local, or LightBlock::directional.
 [[nodiscard]] double local_illuminance_at(const VisibleLights& visible, std::size_t light, const vec3& point,

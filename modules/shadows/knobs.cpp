@@ -11,7 +11,7 @@ void add_shadow_knobs(KnobRegistry& registry) {
             kShadowNearDirections, kShadowMips, kShadowMipOperator, kSquareShadowKernel, kShadowReceiverPlane,
             kShadowTerminator, kShadowDepth16, kOrientedShadowBias, kSubsurfaceBacks, kShadowBiasMm, kShadowBiasUnits,
             kVisibilityLevels, kShadowAtlas, kShadowTexelsPerPixel, kSimplifiedCasters, kShadowLodTexels,
-            kShadowSlotLimit, kShadowPairLimit, kShadowReuse, kShadowEarlyOuts);
+            kShadowSlotLimit, kShadowPairLimit, kShadowReuse, kShadowMinContribution, kShadowEarlyOuts);
 }
 
 ShadowKnobs shadow_knobs(const KnobRegistry& registry) {
@@ -40,6 +40,7 @@ ShadowKnobs shadow_knobs(const KnobRegistry& registry) {
   knobs.near_directions = registry.value(kShadowNearDirections);
   knobs.thin_filter = registry.try_value(kGrassShadowFilter).value_or(0);
   knobs.reuse = registry.value(kShadowReuse) == ShadowReuse::exact;
+  knobs.min_contribution = static_cast<float>(registry.value(kShadowMinContribution));
   knobs.early_outs = registry.value(kShadowEarlyOuts);
   knobs.deferred = registry.value(kShadowMode) == ShadowMode::deferred;
   knobs.classify = registry.value(kShadowClassify);
@@ -71,6 +72,7 @@ gpu::SpecConstants shadow_constants(const ShadowKnobs& knobs, std::uint32_t filt
   constants.set_if_present("kNear", knobs.near);
   constants.set_if_present("kNearDirections", static_cast<std::int32_t>(knobs.near_directions));
   constants.set_if_present("kTerminator", knobs.terminator ? 1u : 0u);
+  constants.set_if_present("kDimLights", knobs.min_contribution > 0.0f ? 1u : 0u);
   constants.set_if_present("kTransmission", knobs.transmission ? 1u : 0u);
   constants.set_if_present("kSubsurfaceBias", knobs.subsurface_backs ? 1u : 4u);
   return constants;

@@ -186,6 +186,18 @@ inline constexpr OnOffKnob kShadowEarlyOuts{
     .default_value = true,
     .only_with = "shadows.filter=pcf|pcss|chs"};
 
+inline constexpr NumberKnob kShadowMinContribution{
+    .name = "shadows.min_contribution",
+    .meaning =
+        "a local light that can add at most this to any pixel of a tile gets the mean visibility of eight of the "
+        "tile's pixels; all such lights of a tile add at most four times this; only with a fixed exposure",
+    .max = 1.0 / 64.0,
+    .default_value = 0.0,
+    .exact = 0.0,
+    .unit = "of white before the tone curve",
+    .ledger_values = {0.0, 1.0 / 1024.0, 1.0 / 512.0, 1.0 / 256.0},
+    .only_with = "shadows.mode=deferred"};
+
 /// The module's knobs as numbers (shadows.NAME, see add_shadow_knobs).
 struct ShadowKnobs {
   bool enabled = true;
@@ -216,6 +228,7 @@ struct ShadowKnobs {
   bool transmission = false;      ///< the scene has materials that light passes through
   std::uint32_t thin_filter = 0;  ///< value of kThinFilter (shadows_api.glsl)
   bool reuse = true;              ///< visibilities of the last frame are kept where nothing has changed
+  float min_contribution = 0.0f;  ///< of white before the tone curve; 0: no light is dim
   bool early_outs = true;         ///< a filter stops as soon as the result is known; false only for measurements
 };
 

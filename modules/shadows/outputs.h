@@ -206,6 +206,7 @@ struct ShadowsOutputs {
   /// apply where present: programs without shadows may take them, too.
   gpu::SpecConstants constants;
 
+  bool may_have_dim_lights = false;   ///< shadows.min_contribution counts in this frame
   std::uint64_t cookies_version = 0;  ///< changes with the content of `cookies`
   std::uint32_t cookie_lights = 0;    ///< spot lights of the scene that project a cookie
   bool transmission = false;          ///< lets_light_through() (engine/scene/transmission.h)

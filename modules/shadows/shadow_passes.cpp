@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "engine/render/camera/light_scale.h"
 #include "engine/render/worlds/world_id.h"
 #include "engine/scene/transmission.h"
 #include "modules/shadows/filter/cookies.h"
@@ -30,6 +31,13 @@ constexpr std::uint32_t kStandardKernel = 8;  // kernel of GLOAM_SHADOWS_STANDAR
 bool has_placed_face(const ViewFaces& view_faces) {
   return std::any_of(view_faces.faces.begin(), view_faces.faces.end(),
                      [](const ShadowFace& face) { return face.square.size > 0; });
+}
+
+/// Whether lights may be dim (shadows.min_contribution): white is known before the frame is drawn, and nobody looks at
+/// visibilities themselves. Thin surfaces are asked about apart, and would need the eight pixels apart, too.
+bool may_have_dim_lights(const FrameBuilder& frame) {
+  return has_stated_exposure(frame.world()) && frame.view().purpose == ViewPurpose::main &&
+         frame.visualizer() == "none" && frame.find<ThinSurfaces>() == nullptr;
 }
 
 constexpr const char* kThinFilter = "kThinFilter";  // among the constants only of frames with thin surfaces
@@ -82,6 +90,7 @@ ShadowKnobs knobs_of(const FrameBuilder& frame) {
   const GeometryOutputs* geometry = frame.find<GeometryOutputs>();
   knobs.terminator = knobs.terminator && geometry != nullptr && geometry->smooth_surfaces;
   knobs.transmission = lets_light_through(frame.world());
+  if (!may_have_dim_lights(frame)) knobs.min_contribution = 0.0f;
   knobs.atlas_size = frame.world().view_resource<ViewFaces>(frame.view().id).atlas.size();
   return knobs;
 }
@@ -89,6 +98,7 @@ ShadowKnobs knobs_of(const FrameBuilder& frame) {
 ShadowsOutputs with_knobs(const ShadowsOutputs& now, const KnobRegistry& registry) {
   ShadowKnobs knobs = shadow_knobs(registry);
   knobs.transmission = now.transmission;
+  if (!now.may_have_dim_lights) knobs.min_contribution = 0.0f;
   ShadowsOutputs other = now;
   set_constants(knobs, knobs.enabled ? knobs.filter : kNoShadows, now.constants.find(kThinFilter) != nullptr, other);
   if (other.cookies_only || !knobs.deferred || knobs.levels == 0)
@@ -118,6 +128,7 @@ void add_shadow_passes(FrameBuilder& frame, ShadowStates& states, ListReuse& reu
                          .cookies = uploads.cookies,
                          .traced = uploads.traced};
   outputs.cookie_lights = static_cast<std::uint32_t>(count_cookie_lights(frame.world()));
+  outputs.may_have_dim_lights = may_have_dim_lights(frame);
   outputs.cookies_version = frame.world().resource<Cookies>().version;
   set_constants(knobs,
                 traced     ? kTracedShadows

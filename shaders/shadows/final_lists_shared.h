@@ -43,6 +43,9 @@
 #define GLOAM_LIGHT_CHANGED 0xFFFFFFFFu     // in place of a light's index in the frame before
 #define GLOAM_LIGHT_RECOMPOSED 0x80000000u  // added to that index: later modules change its visibilities otherwise
 #define GLOAM_MOST_KEPT_LIGHTS 128u         // of a kind; tiles with more keep none
+#define GLOAM_DIM_LIGHT 0x80000000u         // flag of an entry's index in candidates and pairs: the light is dim
+#define GLOAM_DIM_LIGHTS 4.0                // most light that dim lights may add to a tile, over FinalGrid::dim_light
+#define GLOAM_DIM_PIXELS 8                  // pixels of a tile that are asked about a dim light, one in each row
 
 GLOAM_SHARED_BEGIN
 
@@ -57,6 +60,7 @@ struct FinalGrid {
   uint slot_capacity;
   uint classify;        // 0: no classification; every casting light is evaluated at every pixel
   uint reserved_slots;  // the first slots, which only reserved tiles take (slots_api.glsl); 0: no tile is reserved
+  float dim_light;      // radiance · light_scale below which a light is dim (dim_lights.glsl); 0: none is
 };
 
 /// What a shadow tile leaves for the next frame, if that reuses visibilities. Firsts and counts are those of its final
@@ -114,6 +118,8 @@ struct ShadowListCounters {
   uint reserved_slots;   // of `slots`: those of reserved tiles, in frames with reserved slots
   uint other_slots;      // of `slots`: those of other tiles, in frames with reserved slots
   uint kept;             // tile lights whose visibilities are those of the frame before
+  uint dim;              // pairs of dim lights (of `pairs`)
+  uint dim_light;  // the greatest sum of a tile's bounds of dim lights over FinalGrid::dim_light, as a float's bits
 };
 
 GLOAM_SHARED_END

@@ -63,6 +63,11 @@ void ask_thin_pixels(LightOfPair light, uvec2 tile, uint lane) {
     } while (i < count);
 }
 
+// Whether ask_pixels() evaluates GLOAM_DIM_PIXELS pixels only, for dim lights: few_pixel() of each row.
+bool asks_few = false;
+// One pixel in each row, and one in each column.
+uint few_pixel(uint row) { return row << 3 | ((5u * row + 2u) & 7u); }
+
 // Evaluates the tile's pixels. First each thread evaluates its own pixels as far as possible without the filter; then
 // the pixels that need the filter are distributed over all threads, then those with near blockers, and then those that
 // take light from behind. A loop each: within the first, the rare pixels of the others would cost all pixels time.
@@ -70,15 +75,20 @@ void ask_thin_pixels(LightOfPair light, uvec2 tile, uint lane) {
 // threads in the first loop.
 void ask_pixels(LightOfPair light, uvec2 tile, uint lane) {
   const bool apart = kThinFilter != 0u && kFilter == 3u;
+  bool few_only = kDimLights != 0u && !apart && asks_few;
   if (apart) list_thin_pixels(tile, lane);
   uint some = 0u, i = 0u, steps;
   uint others = apart ? other_count : uint(GLOAM_SLOT_PIXELS);
-  uint turns = apart ? max((others + kThreads - 1u) / kThreads, 1u) : kPixels;
+  uint turns = apart ? max((others + kThreads - 1u) / kThreads, 1u) : few_only ? 1u : kPixels;
   do {
     uint place = i * kThreads + lane, pixel = apart ? listed[min(place, max(others, 1u) - 1u)] : lane * kPixels + i;
     PixelOfPair p = pixel_of_pair(light, pixel_at(tile, pixel));
+    uint few = few_pixel(pixel >> 3);
+    bool has_one = few / kPixels == lane;
+    if (few_only && has_one) pixel = few;
     bool known = true;
     bool asked = !apart || place < others;
+    if (few_only) asked = has_one;
     p.matters = p.matters && asked;
     p.point.live = p.point.live && asked;
     float visibility, width = 0.0;

@@ -52,6 +52,8 @@ layout(constant_id = 22) const uint kTerminator = 0u;
 layout(constant_id = 24) const uint kSubsurfaceBias = 4u;
 // Filter of thin surfaces, e.g. blades of grass, with kFilter 3: 0 as others, 1 thin_visibility()
 layout(constant_id = 29) const uint kThinFilter = 0u;
+// 1: lights that can hardly be seen are asked about at a few pixels of a tile (final_lists/dim_lights.glsl)
+layout(constant_id = 36) const uint kDimLights = 0u;
 // A pipeline may be restricted to some kinds of lights. Software devices would otherwise execute the code of all kinds
 // for every light. kKinds restricts the kinds when the pipeline is created. Shaders for fixed kinds
 // define GLOAM_SHADOWS_KINDS, which shortens their code as well. Shaders that define GLOAM_SHADOWS_IN_FACE promise that

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "engine/render/readback/item_need.h"
+#include "engine/scene/resources.h"
 #include "modules/lights/outputs.h"
 #include "modules/shadows/atlas/view_faces.h"
 
@@ -18,6 +20,7 @@ namespace {
 
 constexpr std::uint64_t kMostBytes = std::uint64_t{4} * GLOAM_BUFFER_WORDS;  // bytes of one buffer
 constexpr std::uint32_t kMostSlots = GLOAM_NO_ROOM;  // slot numbers are 0 … GLOAM_NO_ROOM − 1
+constexpr float kWhiteAtEv0 = 1.2f;                  // cd/m²
 constexpr std::uint32_t kMostRows = 65535;           // the least maxComputeWorkGroupCount that Vulkan allows
 /// More tile lights than this are filtered without classification.
 constexpr std::uint32_t kMostCandidates = 2u << 20;
@@ -85,6 +88,13 @@ void create_lists(FrameBuilder& frame, const KeptSizes& sizes, const ViewReuse* 
   lists.entries = create(graph, "final_light_entries", sizes.entries);
   lists.visibilities[0] = lists.visibilities[1] = create(graph, "shadow_visibilities", sizes.visibilities[0]);
   if (split) lists.visibilities[1] = create(graph, "more_shadow_visibilities", sizes.visibilities[1]);
+}
+
+/// FinalGrid::dim_light
+float dim_light(const FrameBuilder& frame, const ShadowKnobs& knobs) {
+  if (!(knobs.min_contribution > 0.0f)) return 0.0f;
+  const float ev100 = frame.world().resource<SceneEnvironment>().exposure_ev100;
+  return knobs.min_contribution * kWhiteAtEv0 * std::exp2(ev100) * frame.view().light_scale;
 }
 
 KeptSizes sizes_of(const FinalLists& lists, std::uint64_t entries, std::uint64_t tiles) {
@@ -169,6 +179,8 @@ void count_final_lists(const shaders::ShadowListCounters& c, const FinalListNote
   sink.count("shadows.tile_lights_filtered", c.pairs);
   sink.count("shadows.tile_lights_filtered_lit", c.lit_by_filter);
   sink.count("shadows.tile_lights_filtered_unlit", c.unlit_by_filter);
+  sink.count("shadows.tile_lights_dim", c.dim);
+  sink.count("shadows.dim_light", std::bit_cast<float>(c.dim_light) * note.min_contribution);
   sink.count("shadows.classified_share", 1.0 - c.pairs / candidates);
   sink.count("shadows.slots", c.slots);
   sink.count("shadows.slots_reserved", c.reserved_slots);
@@ -243,6 +255,7 @@ FinalListBuffers make_final_list_buffers(FrameBuilder& frame, const ShadowKnobs&
   grid.pair_capacity = c.pairs;
   grid.slot_capacity = c.slots;
   grid.reserved_slots = reserved == nullptr ? 0 : reserved->slots;
+  grid.dim_light = dim_light(frame, knobs);
   grid.classify = knobs.classify && knobs.early_outs ? 1 : 0;
   lists.always_complete =
       c.complete && grid.entry_capacity == entries && (!lights.has_lists() || lights.lists_always_fit);
@@ -280,7 +293,8 @@ FinalListBuffers make_final_list_buffers(FrameBuilder& frame, const ShadowKnobs&
                std::uint64_t{c.slots} * slot_bytes(lists.visibility_bits),
                lists.visibility_bits,
                pair_bound,
-               frame.view().frame};
+               frame.view().frame,
+               knobs.min_contribution};
   return made;
 }
 

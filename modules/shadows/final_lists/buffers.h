@@ -32,8 +32,9 @@ struct FinalListNote {
   std::uint64_t list_bytes = 0;        ///< bytes of final entries, early lists and pairs
   std::uint64_t visibility_bytes = 0;  ///< bytes of visibility slots
   std::uint32_t visibility_bits = 8;
-  std::uint64_t pair_bound = 0;  ///< the most pairs that the frame can need
-  std::uint64_t frame = 0;       ///< RenderView::frame
+  std::uint64_t pair_bound = 0;   ///< the most pairs that the frame can need
+  std::uint64_t frame = 0;        ///< RenderView::frame
+  float min_contribution = 0.0f;  ///< ShadowKnobs::min_contribution
 };
 
 /// Name of the frame result (FrameBuilder::keep_result) that holds a ShadowListCounters.

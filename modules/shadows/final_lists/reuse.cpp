@@ -3,11 +3,13 @@
 #include "modules/shadows/final_lists/reuse.h"
 
 #include <algorithm>
+#include <cmath>
 #include <unordered_map>
 #include <utility>
 
 #include "engine/core/hash.h"
 #include "engine/render/camera/view_constants.h"
+#include "engine/scene/resources.h"
 #include "modules/lights/outputs.h"
 #include "modules/shadows/filter/cookies.h"
 #include "shaders/shadows/final_lists_shared.h"
@@ -33,6 +35,12 @@ std::uint64_t shared_hash(const FrameBuilder& frame, const ShadowKnobs& knobs, c
   const shaders::ShadowBlock& block = shadows.block_values;
   hasher.bytes_of(vec4(block.atlas_size, block.bias_m, block.depth_quantum, block.relative_quantum));
   hasher.value(frame.world().resource<Cookies>().version);
+  // Which lights of a tile are dim depends on the brightness of all, and on white.
+  if (knobs.min_contribution > 0.0f) {
+    const float white = std::exp2(frame.world().resource<SceneEnvironment>().exposure_ev100);
+    hasher.bytes_of(vec3(knobs.min_contribution, white, frame.view().light_scale));
+    hasher.value(local_lights_hash(frame.world().view_resource<VisibleLights>(frame.view().id)));
+  }
   return hasher.digest();
 }
 

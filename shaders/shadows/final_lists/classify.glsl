@@ -61,8 +61,9 @@ uint classify(uint light, uint tile_index, out bool in_face) {
 void main() {
   uint number = gl_GlobalInvocationID.x;
   if (number >= candidate_commands.candidates[candidate_kind].w) return;
-  uint at = candidates[candidate_place(final_grid, candidate_kind, number)];
-  uint entry = entries[at], light = entry & 1023u, tile_index = entry >> 10, verdict = kUnknown;
+  uint candidate = candidates[candidate_place(final_grid, candidate_kind, number)];
+  uint at = candidate & ~GLOAM_DIM_LIGHT, entry = entries[at], light = entry & 1023u, tile_index = entry >> 10,
+       verdict = kUnknown;
   bool in_face = false;
   if (final_grid.classify != 0u) verdict = classify(light, tile_index, in_face);
 #ifdef GLOAM_CLASSIFY_SUNS
@@ -74,7 +75,7 @@ void main() {
   uint slot = verdict == kLit ? GLOAM_ALL_LIT : GLOAM_ALL_UNLIT;
   if (verdict == kLit) atomicAdd(counters.lit_at_once, 1u);
   if (verdict == kUnlit) atomicAdd(counters.unlit_at_once, 1u);
-  if (verdict == kUnknown) slot = take_pair(at, tile_index, kind);
+  if (verdict == kUnknown) slot = take_pair(candidate, tile_index, kind);
   entries[at] = light | slot << 10;
 }
 

@@ -40,6 +40,7 @@ const uint kPairKind = uint(GLOAM_PAIRS_IN_FACE);
 const uint kPairKind = uint(GLOAM_PAIRS_CROSSING);
 #endif
 shared uint slot;
+shared uint few_that_matter;  // bit i: few_pixel(i) matters
 
 // The values that all pixels of a pair share.
 #if GLOAM_SHADOWS_KINDS == 4
@@ -73,10 +74,24 @@ float light_cosine(LightOfPair l, vec3 position, vec3 normal) { return local_lig
 uint keep_visibility(uint pixel, PixelOfPair p, float visibility, out uint steps) {
   steps = p.matters ? visibility_steps(p, visibility) : 0u;
   if (!p.matters) return 0u;
+  if (kDimLights != 0u) atomicOr(few_that_matter, 1u << (pixel >> 3));
   return (steps < kMostSteps ? kSomeSeeLess : 0u) | (steps > 0u ? kSomeSeeAny : 0u);
 }
 
 #include "shaders/shadows/pair_pixels_asked_api.glsl"
+
+// Gives all pixels of a dim light's tile the mean of the pixels that were asked. Returns the combined flags.
+uint spread_mean() {
+  uint sum = 0u, count = uint(bitCount(few_that_matter));
+  for (uint row = 0u; row < uint(GLOAM_DIM_PIXELS); ++row) {
+    uint bit = few_pixel(row) * kVisibilityBits;
+    sum += packed_words[bit >> 5] >> (bit & 31u) & kMostSteps;
+  }
+  if (count == 0u) return 0u;
+  uint mean = (2u * sum + count) / (2u * count), word = mean * (0xFFFFFFFFu / kMostSteps);
+  for (uint i = 0u; i < 2u * kVisibilityBits; ++i) packed_words[i] = word;
+  return (mean < kMostSteps ? kSomeSeeLess : 0u) | (mean > 0u ? kSomeSeeAny : 0u);
+}
 
 // Takes the final slot of the pair's entry and counts the result. some: combined flags of all pixels.
 uint take_slot(uint some, uint tile_index) {
@@ -96,12 +111,15 @@ void main() {
   if (pair >= asked) return;  // the same for the whole workgroup
   uint lane = gl_LocalInvocationIndex;
   start_pixels(lane);
+  if (lane == 0u) few_that_matter = 0u;
   barrier();
-  uint at = pairs[pair_place(final_grid, kPairKind, pair)];
+  uint word = pairs[pair_place(final_grid, kPairKind, pair)], at = word & ~GLOAM_DIM_LIGHT;
+  asks_few = kDimLights != 0u && word != at;
   uint entry = entries[at], light = entry & 1023u, tile_index = entry >> 10;
   ask_pixels(light_of_pair(light), uvec2(tile_index % final_grid.tiles.x, tile_index / final_grid.tiles.x), lane);
   barrier();
   if (lane == 0u) {
+    if (asks_few) found = spread_mean();
     slot = take_slot(found, tile_index);
     entries[at] = light | slot << 10;
   }

@@ -57,7 +57,8 @@ KeptRun run_of(uint first, uint count, uint composed) {
 
 // What the tile can keep. Notes its key.
 LastTile last_tile(uvec2 tile, uint tile_index) {
-  uvec4 key = tile_key(depth_image, normal_image, base_color_image, emissive_image, view.inverse_size, tile);
+  uvec4 key =
+      tile_key(depth_image, normal_image, base_color_image, emissive_image, material_image, view.inverse_size, tile);
   note_key(tile_index, key);
   KeptTile last = last_tiles[tile_index];
   if (last.key != key || last.local_first == GLOAM_NO_FINAL_LIST) return no_last_tile();

@@ -11,6 +11,7 @@
 #include "shaders/lights/lights_api.glsl"
 #include "shaders/render/view_api.glsl"
 #include "shaders/shadows/shadows_api.glsl"
+#include "shaders/shadows/final_lists/dim_lights.glsl"
 #include "shaders/shadows/final_lists/tile_groups.glsl"
 
 // Starts final lists from early lists. Each thread processes one tile. A light that casts no shadow gets an entry that
@@ -37,6 +38,8 @@ layout(set = 0, binding = 19) uniform sampler2D depth_image;
 layout(set = 0, binding = 20) uniform usampler2D normal_image;
 layout(set = 0, binding = 21) uniform sampler2D base_color_image;
 layout(set = 0, binding = 23) uniform sampler2D emissive_image;
+layout(set = 0, binding = 33) uniform sampler2D light_texels;
+layout(set = 0, binding = 34) uniform sampler2D material_image;
 
 #include "shaders/shadows/final_lists/keep.glsl"
 #include "shaders/shadows/final_lists/take_pair.glsl"
@@ -48,18 +51,18 @@ bool casts(bool directional, uint light) {
 }
 
 // Adds the light of an entry to the candidates. If they are full, its pixels are filtered without classification.
-// Returns the slot that the entry holds until then.
-uint add_candidate(uint entry, uint tile_index, bool directional, uint light, bool two_groups) {
+// dim: GLOAM_DIM_LIGHT or 0. Returns the slot that the entry holds until then.
+uint add_candidate(uint entry, uint tile_index, bool directional, uint light, bool two_groups, uint dim) {
   uint asked = directional ? atomicAdd(candidate_commands.asked.y, 1u) : atomicAdd(candidate_commands.asked.x, 1u);
   if (asked >= final_grid.candidate_capacity)
-    return take_pair(entry, tile_index,
+    return take_pair(entry | dim, tile_index,
                      directional                              ? uint(GLOAM_PAIRS_DIRECTIONAL)
                      : local_kind(light) == GLOAM_SHADOW_SPOT ? uint(GLOAM_PAIRS_IN_FACE)
                                                               : uint(GLOAM_PAIRS_CROSSING));
   uint kind = uint(directional ? GLOAM_CANDIDATES_DIRECTIONAL : GLOAM_CANDIDATES_LOCAL) |
               (two_groups ? uint(GLOAM_CANDIDATES_TWO_GROUPS) : 0u);
   uint candidate = atomicAdd(candidate_commands.candidates[kind].w, 1u);
-  candidates[candidate_place(final_grid, kind, candidate)] = entry;
+  candidates[candidate_place(final_grid, kind, candidate)] = entry | dim;
   if (candidate % GLOAM_CANDIDATE_GROUP == 0u) atomicAdd(candidate_commands.candidates[kind].x, 1u);
   return tile_index;
 }
@@ -67,7 +70,8 @@ uint add_candidate(uint entry, uint tile_index, bool directional, uint light, bo
 uint unshadowed;  // tile lights of this thread whose light casts no shadow
 uint kept;        // and those that keep their visibilities
 
-void add_light(uint entry, uint tile_index, bool directional, uint light, bool two_groups, inout KeptRun run) {
+void add_light(uint entry, uint tile_index, bool directional, uint light, bool two_groups, uint dim,
+               inout KeptRun run) {
   uint slot = GLOAM_ALL_LIT, last = last_index(run, directional, light);
   note_light(run, last, directional, light);
   if (!casts(directional, light)) {
@@ -76,9 +80,38 @@ void add_light(uint entry, uint tile_index, bool directional, uint light, bool t
     slot = keep_slot(run, last, tile_index);
     ++kept;
   } else {
-    slot = add_candidate(entry, tile_index, directional, light, two_groups);
+    slot = add_candidate(entry, tile_index, directional, light, two_groups, dim);
   }
   entries[entry] = light | slot << 10;
+}
+
+// What decides which lights of a tile are dim.
+struct DimLights {
+  TileBounds one, two;  // of its groups of pixels
+  bool has_two;
+  TileMaterials materials;
+  float left;  // what further dim lights may add
+};
+
+DimLights dim_lights(TileGroups g, uvec2 tile) {
+  DimLights d;
+  d.one = tile_bounds(view, tile, g.one);
+  d.has_two = g.has_two;
+  if (g.has_two) d.two = tile_bounds(view, tile, g.two);
+  d.materials = tile_materials(base_color_image, material_image, view.inverse_size, tile);
+  d.left = GLOAM_DIM_LIGHTS * final_grid.dim_light;
+  return d;
+}
+
+// GLOAM_DIM_LIGHT if the local light is dim in the tile, else 0.
+uint dim_flag(inout DimLights d, uint light) {
+  LocalLight l = fetch_light(light_texels, light);
+  float emitter_m = 0.5 * max(texelFetch(shadow_rows, ivec2(0, light), 0).z, 0.0);
+  float most = most_light(view, d.one, d.materials, l, emitter_m);
+  if (d.has_two) most = max(most, most_light(view, d.two, d.materials, l, emitter_m));
+  bool dim = casts(false, light) && most <= min(final_grid.dim_light, d.left);
+  d.left -= dim ? most : 0.0;
+  return dim ? GLOAM_DIM_LIGHT : 0u;
 }
 
 // Whether a light of the tile is to be classified.
@@ -114,18 +147,25 @@ void main() {
     return;
   }
   LastTile last = last_tile(at, tile_index);
-  bool two_groups = false;
+  bool two_groups = false, asks_dim = false;
+  DimLights dim;
   if (final_grid.classify != 0u && has_new_light(last, suns, list.x, count)) {
     TileGroups groups = make_tile_groups(view, depth_image, normal_image, base_color_image, emissive_image, at);
     two_groups = groups.has_two;
     tile_groups[2u * tile_index] = groups.one;
     if (two_groups) tile_groups[2u * tile_index + 1u] = groups.two;
+    asks_dim = kDimLights != 0u;
+    if (asks_dim) dim = dim_lights(groups, at);
   }
   unshadowed = kept = 0u;
   uvec2 first = uvec2(tile_index * suns, shared_entries + list.x);
-  for (uint i = 0u; i < suns; ++i) add_light(first.x + i, tile_index, true, i, two_groups, last.suns);
-  for (uint i = 0u; i < count; ++i)
-    add_light(first.y + i, tile_index, false, list_light(list.x, i), two_groups, last.local);
+  for (uint i = 0u; i < suns; ++i) add_light(first.x + i, tile_index, true, i, two_groups, 0u, last.suns);
+  for (uint i = 0u; i < count; ++i) {
+    uint light = list_light(list.x, i), flag = 0u;
+    if (asks_dim) flag = dim_flag(dim, light);
+    add_light(first.y + i, tile_index, false, light, two_groups, flag, last.local);
+  }
+  if (asks_dim) atomicMax(counters.dim_light, floatBitsToUint(GLOAM_DIM_LIGHTS - dim.left / final_grid.dim_light));
   note_lights(tile_index);
   imageStore(final_tiles, ivec2(at), uvec4(first, suns << 16 | count, 0u));
   atomicAdd(counters.tiles, 1u);
