@@ -40,6 +40,7 @@ std::uint64_t shared_hash(const FrameBuilder& frame, const ShadowKnobs& knobs, c
     const float white = std::exp2(frame.world().resource<SceneEnvironment>().exposure_ev100);
     hasher.bytes_of(vec3(knobs.min_contribution, white, frame.view().light_scale));
     hasher.value(local_lights_hash(frame.world().view_resource<VisibleLights>(frame.view().id)));
+    for (const shaders::ShadowRow& row : *shadows.row_values) hasher.bytes_of(row);
   }
   return hasher.digest();
 }

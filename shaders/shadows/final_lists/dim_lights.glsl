@@ -58,20 +58,25 @@ vec2 dot_bounds(float middle, float a, float b) {
 // Bound of the specular part of reflected_disc(), over the illuminance. n_l, n_v, l_v: least and greatest dot product
 // of shading normal, direction to the light and direction to the eye. half_angle: at least the light's apparent radius.
 //
-// The distribution falls with the slope of the half vector. For a light with a width it is a mean over the slopes that
-// mirror the light, which are within half_angle / (2 v·h) of that slope. The forms that spread_distribution() uses for
-// ellipses differ from the mean by up to 17 %, and the peak of its core is 1.14 times that of the surface's own
-// distribution: kForms bounds both. Pixels with spread normals count as if the half vector were their normal.
+// The distribution of normals falls with the slope of the half vector. For a light with a width it is a mean over the
+// slopes that mirror the light, which are within half_angle / (2 v·h) of that slope. The forms that
+// spread_distribution() uses for ellipses differ from the mean by up to 17 %, and the peak of its core is 1.14 times
+// that of the surface's own distribution: kForms bounds both. Pixels with spread normals count as if the half vector
+// were their normal. For a slope s and a light of the slope c, the distribution over cos⁴ is that of a point times
+// ((1 + s²) / (alpha2 + (s - c)²))², which falls from the slope `peak` on.
 vec3 most_specular(TileMaterials m, vec2 n_l, vec2 n_v, vec2 l_v, float half_angle) {
   const float kForms = 1.2;
   vec2 sums = sqrt(max(2.0 + 2.0 * l_v, vec2(1e-6)));
   float n_h_most = min((max(n_l.y, 0.0) + max(n_v.y, 0.0)) / sums.x, 1.0);
   float n_h_least = max((max(n_l.x, 0.0) + n_v.x) / sums.y, 0.0), v_h_least = 0.5 * sums.x;
   float cos2 = max(n_h_most * n_h_most, 1e-6), least_cos2 = max(n_h_least * n_h_least, 1e-6);
-  float slope = sqrt(max(1.0 - cos2, 0.0) / cos2) - 0.5 * half_angle / max(v_h_least, 1e-3);
-  float slope2 = m.spread ? 0.0 : max(slope, 0.0) * max(slope, 0.0);
-  float alpha2 = clamp(slope2, m.alpha2.x, m.alpha2.y), wide = alpha2 + slope2;
-  float distribution = kForms * alpha2 / (kPi * wide * wide * least_cos2 * least_cos2);
+  float slope = sqrt(max(1.0 - cos2, 0.0) / cos2), of_light = 0.5 * half_angle / max(v_h_least, 1e-3);
+  float light2 = of_light * of_light, k = 1.0 + light2 - m.alpha2.y;
+  float peak = of_light + 2.0 * of_light * m.alpha2.y / max(k + sqrt(k * k + 4.0 * light2 * m.alpha2.y), 1e-9);
+  float steepest = max(slope, peak), stretch = m.spread ? 1.0 / least_cos2 : 1.0 + steepest * steepest;
+  float beside = m.spread ? 0.0 : max(slope - of_light, 0.0);
+  float beside2 = beside * beside, alpha2 = clamp(beside2, m.alpha2.x, m.alpha2.y), wide = alpha2 + beside2;
+  float distribution = kForms * alpha2 * stretch * stretch / (kPi * wide * wide);
   float eye = max(n_v.x, 1e-3);
   float one = 1.0 - min(v_h_least, 1.0), one2 = one * one;
   vec3 fresnel = m.f0 + (1.0 - m.f0) * (one2 * one2 * one);

@@ -192,56 +192,98 @@ TEST_F(ShadowReuse, knobs_of_the_filter_void_what_was_kept) {
   }
 }
 
-TEST_F(ShadowReuse, two_hundred_random_changes) {
-  std::mt19937 random(7);
-  const auto some = [&](double most) { return std::uniform_real_distribution<double>(-most, most)(random); };
-  double all_kept = 0.0;
-  int partly = 0;
-  for (int i = 0; i < 200; ++i) {
-    const dvec3 by(some(0.1), some(0.03), some(0.1));
-    switch (const unsigned what = random() % 16; what) {
-      case 0:
-      case 1:
-        move_thing(1 + random() % 3, by);
-        break;
-      case 2:
-        move_lamp(random() % 4, by);
-        break;
-      case 3: {
-        const auto factor = static_cast<float>(1.0 + some(0.5));
-        const std::size_t lamp = random() % 4;
-        change_lamp(lamp, [&](Light& l) { l.intensity *= factor; });
-        break;
+/// What was kept over a run of frames.
+struct KeptInRun {
+  double lights = 0.0;
+  int partly = 0;  ///< frames that keep some visibilities and make others
+};
+
+class RandomShadowReuse : public ShadowReuse {
+ protected:
+  /// Changes things, lamps, the camera and knobs at random, draws both after each change.
+  KeptInRun run(int changes) {
+    std::mt19937 random(7);
+    const auto some = [&](double most) { return std::uniform_real_distribution<double>(-most, most)(random); };
+    KeptInRun found;
+    for (int i = 0; i < changes; ++i) {
+      const dvec3 by(some(0.1), some(0.03), some(0.1));
+      switch (const unsigned what = random() % 16; what) {
+        case 0:
+        case 1:
+          move_thing(1 + random() % 3, by);
+          break;
+        case 2:
+          move_lamp(random() % 4, by);
+          break;
+        case 3: {
+          const auto factor = static_cast<float>(1.0 + some(0.5));
+          const std::size_t lamp = random() % 4;
+          change_lamp(lamp, [&](Light& l) { l.intensity *= factor; });
+          break;
+        }
+        case 4: {
+          const std::size_t lamp = random() % 3;
+          change_lamp(lamp, [&](Light& l) { l.width_m = l.width_m > 0.05f ? 0.03f : 0.12f; });
+          break;
+        }
+        case 5:
+          settings.world_from_camera = glm::translate(dmat4(1.0), by) * settings.world_from_camera;
+          break;
+        case 6:
+          give_up();
+          break;
+        case 7:
+          if (random() % 4 == 0) both("shadows.filter", random() % 2 == 0 ? "pcss" : "chs");
+          break;
+        case 8: {
+          const std::size_t lamp = random() % 3;
+          change_lamp(lamp, [&](Light& l) { l.range_m = l.range_m > 2.0f ? 1.5f : 6.0f; });
+          break;
+        }
+        default:
+          break;
       }
-      case 4: {
-        const std::size_t lamp = random() % 3;
-        change_lamp(lamp, [&](Light& l) { l.width_m = l.width_m > 0.05f ? 0.03f : 0.12f; });
-        break;
-      }
-      case 5:
-        settings.world_from_camera = glm::translate(dmat4(1.0), by) * settings.world_from_camera;
-        break;
-      case 6:
-        give_up();
-        break;
-      case 7:
-        if (random() % 4 == 0) both("shadows.filter", random() % 2 == 0 ? "pcss" : "chs");
-        break;
-      case 8: {
-        const std::size_t lamp = random() % 3;
-        change_lamp(lamp, [&](Light& l) { l.range_m = l.range_m > 2.0f ? 1.5f : 6.0f; });
-        break;
-      }
-      default:
-        break;
+      draw_both("change " + std::to_string(i));
+      if (HasFailure()) break;
+      found.lights += kept();
+      if (kept() > 0.0 && filtered() > 0.0) ++found.partly;
     }
-    draw_both("change " + std::to_string(i));
-    if (HasFailure()) break;
-    all_kept += kept();
-    if (kept() > 0.0 && filtered() > 0.0) ++partly;
+    return found;
   }
-  EXPECT_GT(all_kept, 1000.0);
-  EXPECT_GE(partly, 10) << "frames that keep some visibilities and make others";
+};
+
+TEST_F(RandomShadowReuse, two_hundred_random_changes) {
+  const KeptInRun found = run(200);
+  EXPECT_GT(found.lights, 1000.0);
+  EXPECT_GE(found.partly, 10);
+}
+
+// Which lights are dim depends on all lights of a tile and on its materials.
+TEST_F(RandomShadowReuse, random_changes_with_dim_lights) {
+  both("shadows.min_contribution", "0.015");
+  each([](Twin& twin) { twin.world->resource<SceneEnvironment>().exposure_ev100 = 4.5f; });
+  change_lamp(1, [](Light& l) { l.intensity *= 0.3f; });
+  draw_both("first");
+  EXPECT_GT(counted_anew("shadows.tile_lights_dim"), 5.0);
+  for (int i = 0; i < 4; ++i) draw_both("at rest");
+  EXPECT_GT(kept(), 0.0);
+  change_lamp(0, [](Light& l) { l.intensity *= 0.8f; });
+  draw_both("another brightness");
+  each([](Twin& twin) { twin.world->resource<SceneEnvironment>().exposure_ev100 = 4.0f; });
+  draw_both("exposure");
+  for (int i = 0; i < 3; ++i) draw_both("at rest");
+  each([](Twin& twin) {
+    SceneAssets& assets = twin.world->resource<SceneAssets>();
+    for (Material& material : assets.materials) material.base_color = vec4(0.05f, 0.05f, 0.05f, 1.0f);
+    ++assets.version;
+  });
+  draw_both("material");
+  draw_both("material, again");
+  change_lamp(0, [](Light& l) { l.width_m = 0.3f; });
+  draw_both("width");
+  const KeptInRun found = run(60);
+  EXPECT_GT(found.lights, 300.0);
+  EXPECT_GT(found.partly, 0);
 }
 
 }  // namespace
