@@ -28,8 +28,8 @@
 // Kinds of tile-light pairs, each with its own shader. All are in one buffer: in-face pairs from index 0 up, crossing
 // pairs from pair_capacity − 1 down, directional pairs from pair_capacity up (at most one per tile and directional
 // light of the view).
-#define GLOAM_PAIRS_IN_FACE 0   // local lights; all taps of the tile's pixels are in one face
-#define GLOAM_PAIRS_CROSSING 1  // cubes; taps of the tile's pixels may be in several faces
+#define GLOAM_PAIRS_IN_FACE 0   // local lights; all taps of the tile's pixels are in one face, no blocker is near
+#define GLOAM_PAIRS_CROSSING 1  // other local lights; taps may be in several faces of a cube, blockers may be near
 #define GLOAM_PAIRS_DIRECTIONAL 2
 #define GLOAM_PAIR_KINDS 3
 #define GLOAM_PAIRS_ROW 256  // workgroups in a row of the dispatch over pairs

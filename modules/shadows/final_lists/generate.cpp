@@ -48,6 +48,7 @@ ComputeProgram generate_program(const ShadowsOutputs& shadows, std::uint32_t vis
                                 const gpu::DeviceInfo& device) {
   ComputeProgram program{generate_code(kind, shadows.standard), shadows.constants};
   program.constants.set("local_size_x", threads_a_tile(device));
+  if (kind == GLOAM_PAIRS_IN_FACE) program.constants.set("kNear", 0u);  // classification leaves none that needs it
   program.constants.set("kVisibilityBits", visibility_bits);
   return program;
 }

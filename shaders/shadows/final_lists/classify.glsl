@@ -69,7 +69,6 @@ void main() {
 #ifdef GLOAM_CLASSIFY_SUNS
   uint kind = uint(GLOAM_PAIRS_DIRECTIONAL);
 #else
-  in_face = in_face || texelFetch(shadow_rows, ivec2(0, light), 0).x == float(GLOAM_SHADOW_SPOT);
   uint kind = uint(in_face ? GLOAM_PAIRS_IN_FACE : GLOAM_PAIRS_CROSSING);
 #endif
   uint slot = verdict == kLit ? GLOAM_ALL_LIT : GLOAM_ALL_UNLIT;

@@ -259,7 +259,7 @@ bool reads_other_faces(TileInFace f, LocalFaces l, int own, uint faces, float re
 }
 
 // Classifies the tile in each face that decides about it: first the width of the pixels' search regions, then the
-// verdict. in_face: all taps of the tile's pixels are in one face.
+// verdict. in_face: see classify_local().
 uint classify_cube(TileBounds t, LocalFaces l, int most_turns, out bool in_face) {
   const int most_faces = 3;
   const float most_stretch = 1.6;  // of texels beside a face that kernels leave by an eighth of its side
@@ -287,7 +287,7 @@ uint classify_cube(TileBounds t, LocalFaces l, int most_turns, out bool in_face)
   float reach = kernels_reach(width, coarse);
   // A texel of the filter's coarser mip is up to half as wide as the penumbra, and the kernel is eight texels wide: it
   // reaches up to two penumbra widths from the receiver.
-  in_face = !several && !leaves_face(of_own, max(reach, 2.0 * width + 2.0));
+  in_face = !several && !leaves_face(of_own, max(reach, 2.0 * width + 2.0)) && width <= of_own.near_width;
   if (!fits || (several && reach > 0.125 * of_own.size)) return kUnknown;
   bool whole = !reads_other_faces(of_own, l, own, faces, reach * stretch + 1.0);
   uint verdict = kNotAsked;
@@ -302,9 +302,10 @@ uint classify_cube(TileBounds t, LocalFaces l, int most_turns, out bool in_face)
   return verdict == kNotAsked ? kUnknown : verdict;
 }
 
+// in_face: all taps of the tile's pixels are in one face, and none of them may be judged by near_visibility().
 uint classify_local(TileBounds t, uint light, vec3 light_position, int most_turns, out bool in_face) {
   LocalFaces l = fetch_local_faces(light, light_position);
-  in_face = l.first.x == float(GLOAM_SHADOW_SPOT);
+  in_face = false;
   if (l.first.x == float(GLOAM_SHADOW_NONE)) return kCastsNone;
   bool transmits = may_transmit(t) && !is_faced(t, light_position);
   if (!transmits && is_dark(t, light_position)) return kNotAsked;
@@ -316,6 +317,7 @@ uint classify_local(TileBounds t, uint light, vec3 light_position, int most_turn
     if (tile_in_local_face(t, l, 0, false, f)) {
       bool clear;
       float width = widest_region(f, clear);
+      in_face = width <= f.near_width;
       verdict = classify_in_face(f, most_turns, width, 1.0, f.surrounded, clear);
     }
   }

@@ -358,8 +358,8 @@ TEST_F(ClassifyKernels, make_pairs_of_all_candidates_when_classification_is_off)
   const auto with_pixels = std::count_if(scene.tiles.begin(), scene.tiles.end(),
                                          [](const ClassifyTile& tile) { return !tile.groups[0].empty(); });
   EXPECT_EQ(c.counters[0].pairs, kClassifyLights * with_pixels);
-  EXPECT_EQ(c.commands[0].pairs[GLOAM_PAIRS_IN_FACE].w, with_pixels) << "those of the spot";
-  EXPECT_EQ(c.commands[0].pairs[GLOAM_PAIRS_CROSSING].w, with_pixels) << "those of the cube";
+  EXPECT_EQ(c.commands[0].pairs[GLOAM_PAIRS_IN_FACE].w, 0u);
+  EXPECT_EQ(c.commands[0].pairs[GLOAM_PAIRS_CROSSING].w, 2 * with_pixels) << "those of the spot and of the cube";
 }
 
 // Hard case: shadows.full_slots

@@ -12,6 +12,7 @@
 
 #include "engine/render/camera/view_constants.h"
 #include "modules/shadows/atlas/mip_places.h"
+#include "modules/shadows/knobs.h"
 #include "modules/shadows/views/cascade_rows.h"
 #include "shaders/shadows/maps/planes_shared.h"
 #include "shaders/shadows/shaders.h"
@@ -183,8 +184,7 @@ class ClassifyKernels : public ShadowKernelTest {
                                     : kind == GLOAM_PAIRS_CROSSING ? pair_capacity - 1 - i
                                                                    : pair_capacity + i;
         const std::uint32_t entry = c.pairs.at(place), light = entry % kClassifyLights;
-        EXPECT_TRUE((kind == GLOAM_PAIRS_DIRECTIONAL) == (light == 2) && (kind != GLOAM_PAIRS_CROSSING || light == 1))
-            << "entry " << entry << " is in kind " << kind;
+        EXPECT_EQ(kind == GLOAM_PAIRS_DIRECTIONAL, light == 2) << "entry " << entry << " is in kind " << kind;
         listed.push_back(entry);
       }
     }
@@ -215,31 +215,44 @@ class ClassifyKernels : public ShadowKernelTest {
     }
   }
 
-  /// Expects that the filter gives every pixel what the verdict says.
+  /// The pixels of some entries that a light is asked about.
+  struct ProbedPixels {
+    std::vector<shaders::ShadowProbe> probes;
+    std::vector<std::size_t> entries;  ///< of each probe
+  };
+  template <class Wanted>
+  static ProbedPixels pixels_of(const ClassifyScene& scene, Wanted&& wanted) {
+    ProbedPixels found;
+    for (std::size_t light = 0; light < kClassifyLights; ++light) {
+      const ClassifyOracle oracle(scene.lights[light], scene.face_size, kClassifyBiasM);
+      for (std::size_t tile = 0; tile < scene.tiles.size(); ++tile) {
+        if (!wanted(tile, light)) continue;
+        for (const std::vector<ClassifyPixel>& group : scene.tiles[tile].groups)
+          for (const ClassifyPixel& pixel : group) {
+            if (!oracle.is_asked(pixel)) continue;
+            found.entries.push_back(tile * kClassifyLights + light);
+            found.probes.push_back({.position = vec3(pixel.position),
+                                    .light = static_cast<std::uint32_t>(light % 2),
+                                    .face_normal = vec3(pixel.face_normal),
+                                    .flags = (light == 2 ? GLOAM_SHADOW_PROBE_DIRECTIONAL : 0u) |
+                                             (pixel.subsurface ? GLOAM_SHADOW_PROBE_SUBSURFACE : 0u),
+                                    .light_vector = vec3(scene.lights[light].vector)});
+          }
+      }
+    }
+    return found;
+  }
+
+  /// Expects that the filter gives every pixel what the verdict says, and that no pixel of an in-face pair has a search
+  /// region so wide that near_visibility() might judge it. Adds the scene's faces to the maps.
   static void expect_as_filtered(const ClassifyScene& scene, const Classified& c, ShadowMaps& maps,
                                  const ProbeSettings& filter) {
     for (const ClassifyLight& light : scene.lights)
       for (const ClassifyFace& face : light.faces)
         maps.add_face(face.depths, face.origin, scene.face_size, light.kind == CastKind::sun);
-    std::vector<shaders::ShadowProbe> probes;
-    std::vector<std::size_t> entries;
-    for (std::size_t light = 0; light < kClassifyLights; ++light) {
-      const ClassifyOracle oracle(scene.lights[light], scene.face_size, kClassifyBiasM);
-      for (std::size_t tile = 0; tile < scene.tiles.size(); ++tile) {
-        if (c.slot(tile, light) < GLOAM_NO_ROOM) continue;
-        for (const std::vector<ClassifyPixel>& group : scene.tiles[tile].groups)
-          for (const ClassifyPixel& pixel : group) {
-            if (!oracle.is_asked(pixel)) continue;
-            entries.push_back(tile * kClassifyLights + light);
-            probes.push_back({.position = vec3(pixel.position),
-                              .light = static_cast<std::uint32_t>(light % 2),
-                              .face_normal = vec3(pixel.face_normal),
-                              .flags = (light == 2 ? GLOAM_SHADOW_PROBE_DIRECTIONAL : 0u) |
-                                       (pixel.subsurface ? GLOAM_SHADOW_PROBE_SUBSURFACE : 0u),
-                              .light_vector = vec3(scene.lights[light].vector)});
-          }
-      }
-    }
+    expect_narrow_in_face(scene, c, maps, filter);
+    const auto [probes, entries] =
+        pixels_of(scene, [&](std::size_t tile, std::size_t light) { return c.slot(tile, light) >= GLOAM_NO_ROOM; });
     if (probes.empty()) return;
     const auto results = maps.probe(probes, classify_rows(scene), constants_of(scene), filter);
     for (std::size_t i = 0; i < results.size(); ++i) {
@@ -249,6 +262,23 @@ class ClassifyKernels : public ShadowKernelTest {
       ADD_FAILURE() << "tile " << entries[i] / kClassifyLights << ", " << kClassifyLightNames[light]
                     << ": the verdict is " << expected << ", the filter finds " << results[i].visibility;
       return;
+    }
+  }
+
+  static void expect_narrow_in_face(const ClassifyScene& scene, const Classified& c, ShadowMaps& maps,
+                                    const ProbeSettings& filter) {
+    constexpr double kNearTangent = 0.55;  // of shadows.near=wide
+    if (filter.filter != kContactHardening) return;
+    std::vector<bool> in_face(scene.tiles.size() * kClassifyLights);
+    for (std::uint32_t i = 0; i < c.commands[0].pairs[GLOAM_PAIRS_IN_FACE].w; ++i) in_face[c.pairs[i]] = true;
+    const auto [probes, entries] =
+        pixels_of(scene, [&](std::size_t tile, std::size_t light) { return in_face[tile * kClassifyLights + light]; });
+    if (probes.empty()) return;
+    const auto results = maps.probe(probes, classify_rows(scene), constants_of(scene), filter);
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      const double tan_half = scene.lights[entries[i] % kClassifyLights].faces[0].pose.tan_half;
+      EXPECT_LE(static_cast<double>(results[i].region_width) * tan_half, kNearTangent * scene.face_size)
+          << "tile " << entries[i] / kClassifyLights;
     }
   }
 
