@@ -44,8 +44,10 @@
 #define GLOAM_LIGHT_RECOMPOSED 0x80000000u  // added to that index: later modules change its visibilities otherwise
 #define GLOAM_MOST_KEPT_LIGHTS 128u         // of a kind; tiles with more keep none
 #define GLOAM_DIM_LIGHT 0x80000000u         // flag of an entry's index in candidates and pairs: the light is dim
-#define GLOAM_DIM_LIGHTS 4.0                // most light that dim lights may add to a tile, over FinalGrid::dim_light
-#define GLOAM_DIM_PIXELS 8                  // pixels of a tile that are asked about a dim light, one in each row
+#define GLOAM_PARTLY_REACHED 0x40000000u    // flag in pairs: the light may not illuminate all pixels of the tile
+#define GLOAM_ENTRY_FLAGS 0xC0000000u
+#define GLOAM_DIM_LIGHTS 4.0  // most light that dim lights may add to a tile, over FinalGrid::dim_light
+#define GLOAM_DIM_PIXELS 8    // pixels of a tile that are asked about a dim light, one in each row
 
 GLOAM_SHARED_BEGIN
 

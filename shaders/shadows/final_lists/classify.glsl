@@ -34,26 +34,32 @@ layout(push_constant, scalar) uniform Constants { uint candidate_kind; };
 
 const int kMostTurns = 160;  // most blocks of planes that are tested per face of a light
 
-// in_face: set to false if taps of the group's pixels may be in several faces.
-uint classify_group(uint light, uint tile_index, uint group, inout bool in_face) {
+// in_face: set to false unless classify_local() sets it. partly: set if the light may not illuminate all pixels.
+uint classify_group(uint light, uint tile_index, uint group, inout bool in_face, inout bool partly) {
   TileBounds t = tile_bounds(view, uvec2(tile_index % final_grid.tiles.x, tile_index / final_grid.tiles.x),
                              tile_groups[2u * tile_index + group]);
 #ifdef GLOAM_CLASSIFY_SUNS
-  return classify_directional(t, light, texelFetch(shadow_rows, ivec2(6, cascade_row(light, 0u)), 0).xyz, kMostTurns);
+  vec3 direction = texelFetch(shadow_rows, ivec2(6, cascade_row(light, 0u)), 0).xyz;
+  partly = partly || dot(t.normal, direction) > -t.shading_spread;
+  return classify_directional(t, light, direction, kMostTurns);
 #else
   bool here;
-  uint verdict = classify_local(t, light, texelFetch(light_texels, ivec2(0, light), 0).xyz, kMostTurns, here);
+  vec4 place = texelFetch(light_texels, ivec2(0, light), 0);  // position, inverse_range_squared
+  float farthest = distance(t.center, place.xyz) + t.radius;
+  partly = partly || farthest * farthest * place.w > 1.0 || !is_faced(t, place.xyz);
+  uint verdict = classify_local(t, light, place.xyz, kMostTurns, here);
   in_face = in_face && (here || verdict == kNotAsked);
   return verdict;
 #endif
 }
 
-// The verdict on which the groups of the tile's pixels agree. in_face: all taps of the pixels are in one face.
-uint classify(uint light, uint tile_index, out bool in_face) {
+// The verdict on which the groups of the tile's pixels agree. in_face, partly: see classify_group().
+uint classify(uint light, uint tile_index, out bool in_face, out bool partly) {
   uint groups = (candidate_kind & uint(GLOAM_CANDIDATES_TWO_GROUPS)) + 1u, verdict = kNotAsked, group = 0u;
   in_face = true;
+  partly = false;
   do {
-    verdict = agreed(verdict, classify_group(light, tile_index, group, in_face));
+    verdict = agreed(verdict, classify_group(light, tile_index, group, in_face, partly));
   } while (++group < groups);
   return verdict == kNotAsked ? kUnlit : verdict;
 }
@@ -64,8 +70,8 @@ void main() {
   uint candidate = candidates[candidate_place(final_grid, candidate_kind, number)];
   uint at = candidate & ~GLOAM_DIM_LIGHT, entry = entries[at], light = entry & 1023u, tile_index = entry >> 10,
        verdict = kUnknown;
-  bool in_face = false;
-  if (final_grid.classify != 0u) verdict = classify(light, tile_index, in_face);
+  bool in_face = false, partly = false;
+  if (final_grid.classify != 0u) verdict = classify(light, tile_index, in_face, partly);
 #ifdef GLOAM_CLASSIFY_SUNS
   uint kind = uint(GLOAM_PAIRS_DIRECTIONAL);
 #else
@@ -74,7 +80,7 @@ void main() {
   uint slot = verdict == kLit ? GLOAM_ALL_LIT : GLOAM_ALL_UNLIT;
   if (verdict == kLit) atomicAdd(counters.lit_at_once, 1u);
   if (verdict == kUnlit) atomicAdd(counters.unlit_at_once, 1u);
-  if (verdict == kUnknown) slot = take_pair(candidate, tile_index, kind);
+  if (verdict == kUnknown) slot = take_pair(candidate | (partly ? GLOAM_PARTLY_REACHED : 0u), tile_index, kind);
   entries[at] = light | slot << 10;
 }
 

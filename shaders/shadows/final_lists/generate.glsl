@@ -78,6 +78,10 @@ uint keep_visibility(uint pixel, PixelOfPair p, float visibility, out uint steps
   return (steps < kMostSteps ? kSomeSeeLess : 0u) | (steps > 0u ? kSomeSeeAny : 0u);
 }
 
+// In pairs within a face, the list would cost more than the pixels that it leaves out.
+#ifdef GLOAM_SHADOWS_CROSSING
+#define GLOAM_PAIR_LISTS_PIXELS
+#endif
 #include "shaders/shadows/pair_pixels_asked_api.glsl"
 
 // Gives all pixels of a dim light's tile the mean of the pixels that were asked. Returns the combined flags.
@@ -113,8 +117,9 @@ void main() {
   start_pixels(lane);
   if (lane == 0u) few_that_matter = 0u;
   barrier();
-  uint word = pairs[pair_place(final_grid, kPairKind, pair)], at = word & ~GLOAM_DIM_LIGHT;
-  asks_few = kDimLights != 0u && word != at;
+  uint word = pairs[pair_place(final_grid, kPairKind, pair)], at = word & ~GLOAM_ENTRY_FLAGS;
+  asks_few = kDimLights != 0u && (word & GLOAM_DIM_LIGHT) != 0u;
+  leaves_out_pixels = (word & GLOAM_PARTLY_REACHED) != 0u;
   uint entry = entries[at], light = entry & 1023u, tile_index = entry >> 10;
   ask_pixels(light_of_pair(light), uvec2(tile_index % final_grid.tiles.x, tile_index / final_grid.tiles.x), lane);
   barrier();

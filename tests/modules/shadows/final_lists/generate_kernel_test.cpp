@@ -211,7 +211,7 @@ class GenerateShadows : public test::ShadowKernelTest {
       const std::uint32_t place = kind == GLOAM_PAIRS_IN_FACE    ? at
                                   : kind == GLOAM_PAIRS_CROSSING ? s.pair_capacity - 1 - at
                                                                  : s.pair_capacity + at;
-      pair_words[place] = g.pairs[i];
+      pair_words[place] = g.pairs[i] | (i % 2 == 0 ? GLOAM_PARTLY_REACHED : 0u);  // only a hint
     }
     shaders::ShadowBlock block = test::shadow_block(maps);
     std::vector<shaders::ShadowRow> rows = lights.rows;

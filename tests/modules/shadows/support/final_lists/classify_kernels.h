@@ -150,6 +150,7 @@ class ClassifyKernels : public ShadowKernelTest {
       d.run(pipeline((kind & GLOAM_CANDIDATES_DIRECTIONAL) != 0, options.filter),
             {(count + GLOAM_CANDIDATE_GROUP - 1) / GLOAM_CANDIDATE_GROUP, 1});
     }
+    for (std::uint32_t& pair : c.pairs) pair = pair == kGuard ? pair : pair & ~GLOAM_ENTRY_FLAGS;
     return c;
   }
 
