@@ -55,8 +55,7 @@ bool casts(bool directional, uint light) {
 uint add_candidate(uint entry, uint tile_index, bool directional, uint light, bool two_groups, uint dim) {
   uint asked = directional ? atomicAdd(candidate_commands.asked.y, 1u) : atomicAdd(candidate_commands.asked.x, 1u);
   if (asked >= final_grid.candidate_capacity)
-    return take_pair(entry | dim, tile_index,
-                     uint(directional ? GLOAM_PAIRS_DIRECTIONAL : GLOAM_PAIRS_CROSSING));
+    return take_pair(entry | dim, tile_index, uint(directional ? GLOAM_PAIRS_DIRECTIONAL : GLOAM_PAIRS_CROSSING));
   uint kind = uint(directional ? GLOAM_CANDIDATES_DIRECTIONAL : GLOAM_CANDIDATES_LOCAL) |
               (two_groups ? uint(GLOAM_CANDIDATES_TWO_GROUPS) : 0u);
   uint candidate = atomicAdd(candidate_commands.candidates[kind].w, 1u);
