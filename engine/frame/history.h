@@ -124,8 +124,8 @@ class History {
   /// contents on the GPU.
   void on_commit(std::function<void()> function);
 
-  /// Whether a pass that `graph` has compiled writes the `current` of a pair: what the frame writes then depends on what
-  /// the frames before it have left.
+  /// Whether a pass that `graph` has compiled writes the `current` of a pair: what the frame writes then depends on
+  /// what the frames before it have left.
   [[nodiscard]] bool swaps_pairs(const FrameGraph& graph) const;
   /// Ends the frame that `graph` has executed and the device has accepted. `aging`: whether the frame counts for
   /// kFramesKept.

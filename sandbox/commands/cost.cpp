@@ -118,6 +118,9 @@ class ConsoleProgress final : public CostProgress {
   WorkTimes phases_;
 };
 
+/// Why scene.reuse has no rows.
+constexpr const char* kEveryFrame = "ledgers measure frames in which something changes";
+
 /// All that a ledger can vary: the modules' knobs, the engine's, and the resolution scale.
 KnobRegistry measurable_knobs() {
   KnobRegistry registry;
@@ -153,6 +156,7 @@ CostRequest make_request(Session& session, const Options& options, const std::ve
     std::string reason;
     for (const auto& module : session.renderer->modules())
       if (module->name() == owner && options.knobs.empty()) reason = idle_reason(*module, name, session);
+    if (name == kFrameReuse.name && options.knobs.empty()) reason = kEveryFrame;
     if (name == kLodPixels.name && options.knobs.empty() && !may_have_levels(session.world)) reason = kNoLevels;
     if (reason.empty())
       request.knobs.push_back(name);

@@ -66,7 +66,7 @@ class PlayPanelTest : public ::testing::Test {
   Session session_;
   gpu::RecordingDevice* device_ = nullptr;
   ViewSettings settings_;
-  ResolutionScale scale_{80.0, 1.0};
+  ResolutionScale scale_{{80.0, 80.0}, 1.0};
   std::set<std::string> passes_;
 };
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "engine/scene/assets.h"
-#include "tests/modules/shadows/support/twin_renderers.h"
+#include "tests/modules/shadows/support/reuse_twins.h"
 
 // scene.reuse=exact: frames that are kept as a whole equal those of a renderer that keeps nothing, to the bit.
 
@@ -19,8 +19,13 @@ namespace {
 
 using test::Twin;
 
-class FrameReuse : public test::TwinRenderers {
+class WholeFrameReuse : public test::ReuseTwins {
  protected:
+  void SetUp() override {
+    ASSERT_NO_FATAL_FAILURE(ReuseTwins::SetUp());
+    if (IsSkipped()) return;
+    ASSERT_TRUE(keeping_.renderer->knobs().set("scene.reuse", "exact").ok());
+  }
   [[nodiscard]] bool kept() const { return keeping_.renderer->report().kept; }
   void rest(const std::string& after) {
     for (int i = 0; i < 8; ++i) draw_both(after + ", at rest, frame " + std::to_string(i));
@@ -46,7 +51,7 @@ class FrameReuse : public test::TwinRenderers {
   }
 };
 
-TEST_F(FrameReuse, what_changes_is_drawn_and_what_rests_is_kept) {
+TEST_F(WholeFrameReuse, what_changes_is_drawn_and_what_rests_is_kept) {
   auto counted = keeping_.renderer->report().counters;
   for (int i = 0; i < 8 && !kept(); ++i) {
     counted = keeping_.renderer->report().counters;
@@ -77,7 +82,7 @@ TEST_F(FrameReuse, what_changes_is_drawn_and_what_rests_is_kept) {
                [&] { each([](Twin& twin) { twin.world->create(point(0.05f), WorldTransform{at(0.4, 0.6, 0.6)}); }); });
 }
 
-TEST_F(FrameReuse, frames_with_other_owners_or_knobs_are_drawn) {
+TEST_F(WholeFrameReuse, frames_with_other_owners_or_knobs_are_drawn) {
   rest("new scene");
   for (const char* knob : {"scene.reuse", "shadows.reuse", "lighting.reuse"}) {
     ASSERT_TRUE(keeping_.renderer->knobs().set(knob, "off").ok());
@@ -98,7 +103,7 @@ TEST_F(FrameReuse, frames_with_other_owners_or_knobs_are_drawn) {
   rest("after overlays");
 }
 
-TEST_F(FrameReuse, pictures_that_accumulate_are_drawn) {
+TEST_F(WholeFrameReuse, pictures_that_accumulate_are_drawn) {
   both("lighting.antialiasing", "taa");
   for (int i = 0; i < 24; ++i) {
     draw_both("taa " + std::to_string(i));
@@ -106,7 +111,7 @@ TEST_F(FrameReuse, pictures_that_accumulate_are_drawn) {
   }
 }
 
-TEST_F(FrameReuse, reading_and_giving_up_frames_changes_nothing) {
+TEST_F(WholeFrameReuse, reading_and_giving_up_frames_changes_nothing) {
   rest("new scene");
   give_up();
   draw_both("after a frame that was given up");
@@ -124,7 +129,7 @@ TEST_F(FrameReuse, reading_and_giving_up_frames_changes_nothing) {
   rest("freed memory");
 }
 
-TEST_F(FrameReuse, a_second_view_comes_and_goes) {
+TEST_F(WholeFrameReuse, a_second_view_comes_and_goes) {
   const auto two_views = [&](double turn) {
     ViewSettings other = settings;
     other.id = ViewId{5};
@@ -156,7 +161,7 @@ TEST_F(FrameReuse, a_second_view_comes_and_goes) {
   rest("released");
 }
 
-TEST_F(FrameReuse, random_changes_and_rests) {
+TEST_F(WholeFrameReuse, random_changes_and_rests) {
   std::mt19937 random(11);
   const auto some = [&](double most) { return std::uniform_real_distribution<double>(-most, most)(random); };
   int frames_kept = 0;

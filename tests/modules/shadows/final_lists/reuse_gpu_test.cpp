@@ -16,9 +16,9 @@ namespace gloam {
 namespace {
 
 using test::Twin;
-using ShadowReuse = test::ReuseTwins;
+using VisibilityReuse = test::ReuseTwins;
 
-TEST_F(ShadowReuse, at_rest_everything_is_kept_and_only_what_changes_is_made_anew) {
+TEST_F(VisibilityReuse, at_rest_everything_is_kept_and_only_what_changes_is_made_anew) {
   rest();
   const double all = counted_anew("shadows.tile_lights");
   // A flame flickers: its shadows stay.
@@ -43,7 +43,7 @@ TEST_F(ShadowReuse, at_rest_everything_is_kept_and_only_what_changes_is_made_ane
   rest();
 }
 
-TEST_F(ShadowReuse, pixels_that_change_are_made_anew_though_no_light_sees_it) {
+TEST_F(VisibilityReuse, pixels_that_change_are_made_anew_though_no_light_sees_it) {
   // A pane above the floor that casts nothing: its depth, its normals and its material change, one at a time.
   std::vector<std::uint32_t> meshes;
   each([&](Twin& twin) {
@@ -84,7 +84,7 @@ TEST_F(ShadowReuse, pixels_that_change_are_made_anew_though_no_light_sees_it) {
   expect_some_anew("edge");
 }
 
-TEST_F(ShadowReuse, light_that_changes_is_computed_anew_where_shadows_are_kept) {
+TEST_F(VisibilityReuse, light_that_changes_is_computed_anew_where_shadows_are_kept) {
   std::vector<std::uint32_t> meshes;
   each([&](Twin& twin) {
     test::SceneMaker maker(*twin.world);
@@ -132,7 +132,7 @@ TEST_F(ShadowReuse, light_that_changes_is_computed_anew_where_shadows_are_kept) 
   EXPECT_EQ(lit_kept(), tiles);
 }
 
-TEST_F(ShadowReuse, a_camera_that_moves_keeps_nothing_and_costs_no_keys) {
+TEST_F(VisibilityReuse, a_camera_that_moves_keeps_nothing_and_costs_no_keys) {
   rest();
   for (int i = 0; i < 3; ++i) {
     settings.world_from_camera = at(0.01, 0.0, 0.0) * settings.world_from_camera;
@@ -157,7 +157,7 @@ TEST_F(ShadowReuse, a_camera_that_moves_keeps_nothing_and_costs_no_keys) {
   rest();
 }
 
-TEST_F(ShadowReuse, frames_that_are_given_up_and_read_again_change_nothing) {
+TEST_F(VisibilityReuse, frames_that_are_given_up_and_read_again_change_nothing) {
   rest();
   move_thing(1, dvec3(0.1, 0.0, 0.0));
   give_up();
@@ -174,7 +174,7 @@ TEST_F(ShadowReuse, frames_that_are_given_up_and_read_again_change_nothing) {
   rest();
 }
 
-TEST_F(ShadowReuse, knobs_of_the_filter_void_what_was_kept) {
+TEST_F(VisibilityReuse, knobs_of_the_filter_void_what_was_kept) {
   for (const auto& [knob, value] : {std::pair{"shadows.visibility_bits", "4"},
                                     {"shadows.bias_mm", "4"},
                                     {"shadows.slot_limit", "40"},
@@ -198,7 +198,7 @@ struct KeptInRun {
   int partly = 0;  ///< frames that keep some visibilities and make others
 };
 
-class RandomShadowReuse : public ShadowReuse {
+class RandomVisibilityReuse : public VisibilityReuse {
  protected:
   /// Changes things, lamps, the camera and knobs at random, draws both after each change.
   KeptInRun run(int changes) {
@@ -252,14 +252,14 @@ class RandomShadowReuse : public ShadowReuse {
   }
 };
 
-TEST_F(RandomShadowReuse, two_hundred_random_changes) {
+TEST_F(RandomVisibilityReuse, two_hundred_random_changes) {
   const KeptInRun found = run(200);
   EXPECT_GT(found.lights, 1000.0);
   EXPECT_GE(found.partly, 10);
 }
 
 // Which lights are dim depends on all lights of a tile and on its materials.
-TEST_F(RandomShadowReuse, random_changes_with_dim_lights) {
+TEST_F(RandomVisibilityReuse, random_changes_with_dim_lights) {
   both("shadows.min_contribution", "0.015");
   each([](Twin& twin) { twin.world->resource<SceneEnvironment>().exposure_ev100 = 4.5f; });
   change_lamp(1, [](Light& l) { l.intensity *= 0.3f; });

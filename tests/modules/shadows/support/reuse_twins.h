@@ -34,6 +34,7 @@ class ReuseTwins : public HardShadows {
     keeping_ = {&world, renderer.get(), {}, {}};
     plain_ = {&*other_, plain.renderer.get(), {}, {}};
     both("shadows.visibility_bits", "8");
+    both("scene.reuse", "off");  // only parts of frames are kept
     for (const char* knob : {"shadows.reuse", "lighting.reuse"})
       ASSERT_TRUE(plain_.renderer->knobs().set(knob, "off").ok());
     settings = look_at(dvec3(0.3, 2.2, 3.4), dvec3(0.0, 0.3, 0.0), 80, 56);

@@ -102,7 +102,7 @@ TEST(ResolutionScaleTest, a_step_that_was_slow_only_at_first_is_tried_again_soon
   ResolutionScale scale(kBudget, 0.0);
   scale.start(1280, 720, 116000.0);
   const double first = scale.scale();
-  for (int frame = 0; frame < 6; ++frame) scale.add(120.0);
+  for (int frame = 0; frame < 6; ++frame) scale.add(120.0, true);
   ASSERT_LT(scale.scale(), first);
   draw(scale, {10.0, 200.0}, 40);
   EXPECT_GT(scale.scale(), first);
