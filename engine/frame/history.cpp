@@ -70,6 +70,8 @@ Result<HistoryImagePair> History::image_pair(FrameGraph& graph, const HistoryVie
 
 void History::on_commit(std::function<void()> function) { state_->on_commit.push_back(std::move(function)); }
 
+bool History::owns(gpu::ImageHandle image) const { return state_->images.owns(image); }
+bool History::owns(gpu::BufferHandle buffer) const { return state_->buffers.owns(buffer); }
 bool History::swaps_pairs(const FrameGraph& graph) const { return state_->images.swaps_pairs(graph); }
 
 void History::commit(const FrameGraph& graph, bool aging) {

@@ -124,6 +124,9 @@ class History {
   /// contents on the GPU.
   void on_commit(std::function<void()> function);
 
+  /// Whether the object is one of the frame that is being declared, or of a frame before it.
+  [[nodiscard]] bool owns(gpu::ImageHandle image) const;
+  [[nodiscard]] bool owns(gpu::BufferHandle buffer) const;
   /// Whether a pass that `graph` has compiled writes the `current` of a pair: what the frame writes then depends on
   /// what the frames before it have left.
   [[nodiscard]] bool swaps_pairs(const FrameGraph& graph) const;

@@ -91,6 +91,7 @@ class HistoryPool {
   /// sides: 1 for a resource in place, 2 for a pair.
   [[nodiscard]] Result<Used> use(FrameGraph& graph, const HistoryView& view, const Desc& desc, const HistoryUse& use,
                                  std::uint32_t sides);
+  [[nodiscard]] bool owns(Handle handle) const;
   /// Whether `graph` writes the current side of a pair.
   [[nodiscard]] bool swaps_pairs(const FrameGraph& graph) const;
   void commit(const FrameGraph& graph, std::uint64_t now);
@@ -241,6 +242,15 @@ Result<typename HistoryPool<Kind>::Used> HistoryPool<Kind>::use(FrameGraph& grap
                                       pending.contents.left[side], use.final_access);
   }
   return used(graph, pending);
+}
+
+template <class Kind>
+bool HistoryPool<Kind>::owns(Handle handle) const {
+  return std::ranges::any_of(items_, [&](const auto& entry) {
+    const Item& item = entry.second;
+    const auto& handles = item.pending ? item.pending->contents.handles : item.contents.handles;
+    return std::ranges::find(handles, handle) != handles.end();
+  });
 }
 
 template <class Kind>

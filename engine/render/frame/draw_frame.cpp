@@ -155,16 +155,19 @@ void give_up_frame(const Frame& frame, std::uint64_t number, RendererParts& part
 }
 
 /// Records the frame. digest: set if the frame may be kept, to what it does.
-Status record(Frame& frame, RendererParts& parts, gpu::CommandList& commands, std::optional<std::uint64_t>& digest) {
+Status record(Frame& frame, RendererParts& parts, gpu::CommandList& commands, std::optional<FrameDigest>& digest) {
   if (!may_keep(frame, parts)) return record_frame(frame, parts, commands);
-  DigestCommands digesting(commands, *parts.options.device);
+  const History& history = parts.resources.history;
+  DigestCommands digesting(commands, *parts.options.device, [&](gpu::ImageHandle image, gpu::BufferHandle buffer) {
+    return image ? history.owns(image) : history.owns(buffer);
+  });
   GLOAM_TRY(record_frame(frame, parts, digesting));
-  if (!parts.resources.history.swaps_pairs(parts.resources.graph)) digest = digesting.digest();
+  if (!history.swaps_pairs(parts.resources.graph)) digest = digesting.digest();
   return {};
 }
 
 /// Submits a recorded frame, or drops its commands if the last frames did the same.
-Status finish(const std::optional<std::uint64_t>& digest, RendererParts& parts) {
+Status finish(const std::optional<FrameDigest>& digest, RendererParts& parts) {
   gpu::Device& device = *parts.options.device;
   parts.last_frame.kept = digest && parts.kept_frames.repeats(*digest);
   parts.last_frame.submitted_ns = parts.options.zones == nullptr ? 0 : parts.options.zones->now_ns();
@@ -182,7 +185,7 @@ Status submit(Frame& frame, std::span<const ViewRequest> requests, RendererParts
   auto commands = device.begin_frame();
   if (!commands.ok()) return commands.error();
   const std::uint64_t number = device.frame_number();
-  std::optional<std::uint64_t> digest;
+  std::optional<FrameDigest> digest;
   Status drawn;
   try {
     drawn = record(frame, parts, **commands, digest);

@@ -40,41 +40,56 @@ enum class DigestCommands::Command : std::uint8_t {
 
 template <class... Numbers>
 void DigestCommands::add(Command command, Numbers... numbers) {
-  hash_.value(command);
-  (hash_.value(numbers), ...);
+  value(command);
+  (value(numbers), ...);
 }
 
-void DigestCommands::add_float(float number) { hash_.value(std::bit_cast<std::uint32_t>(number)); }
+template <class Number>
+void DigestCommands::value(Number number) {
+  inputs_.value(number);
+  whole_.value(number);
+}
 
-void DigestCommands::add_image(gpu::ImageHandle image) { hash_.value(image.index).value(image.generation); }
+void DigestCommands::bytes(std::span<const std::byte> data) { value(hash_bytes(data)); }
+
+void DigestCommands::add_float(float number) { value(std::bit_cast<std::uint32_t>(number)); }
+
+void DigestCommands::add_image(gpu::ImageHandle image) {
+  whole_.value(image.index).value(image.generation);
+  if (!outlives_(image, {})) inputs_.value(image.index).value(image.generation);
+}
 
 void DigestCommands::add_view(const gpu::ImageView& view) {
   add_image(view.image);
-  hash_.value(view.first_mip).value(view.mip_count).value(view.first_layer).value(view.layer_count);
+  for (const std::uint32_t number : {view.first_mip, view.mip_count, view.first_layer, view.layer_count}) value(number);
 }
 
 void DigestCommands::add_range(gpu::BufferHandle buffer, std::uint64_t offset, std::uint64_t size) {
-  hash_.value(size);
+  value(size);
   switch (device_.desc(buffer).memory) {
     case gpu::MemoryKind::upload: {
-      const std::span<const std::byte> bytes = device_.mapped(buffer).subspan(offset);
-      hash_.bytes(size == 0 ? bytes : bytes.first(size));
+      const std::span<const std::byte> data = device_.mapped(buffer).subspan(offset);
+      bytes(size == 0 ? data : data.first(size));
       return;
     }
     case gpu::MemoryKind::readback:
       return;
     case gpu::MemoryKind::device:
-      hash_.value(buffer.index).value(buffer.generation).value(offset);
+      value(offset);
+      whole_.value(buffer.index).value(buffer.generation);
+      if (!outlives_({}, buffer)) inputs_.value(buffer.index).value(buffer.generation);
   }
 }
 
 void DigestCommands::add_binding(const gpu::Binding& binding) {
-  hash_.value(binding.binding).value(binding.resource.index());
+  value(binding.binding);
+  value(binding.resource.index());
   if (const auto* range = std::get_if<gpu::Binding::BufferRange>(&binding.resource)) {
     add_range(range->buffer, range->offset, range->size);
   } else if (const auto* sampled = std::get_if<gpu::Binding::Sampled>(&binding.resource)) {
     add_view(sampled->view);
-    hash_.value(sampled->sampler.index).value(sampled->sampler.generation);
+    value(sampled->sampler.index);
+    value(sampled->sampler.generation);
   } else {
     add_view(std::get<gpu::Binding::Storage>(binding.resource).view);
   }
@@ -141,11 +156,12 @@ void DigestCommands::begin_rendering(const gpu::RenderingDesc& desc) {
   add(Command::rendering, desc.colors.size(), desc.width, desc.height, desc.x, desc.y);
   for (const gpu::ColorTarget& color : desc.colors) {
     add_view(color.view);
-    hash_.value(color.load);
+    value(color.load);
     for (const float channel : color.clear) add_float(channel);
   }
   add_view(desc.depth.view);
-  hash_.value(desc.depth.load).value(desc.depth.read_only);
+  value(desc.depth.load);
+  value(desc.depth.read_only);
   add_float(desc.depth.clear);
   ForwardingCommands::begin_rendering(desc);
 }
@@ -186,7 +202,7 @@ void DigestCommands::bind_set(std::uint32_t set, gpu::ResourceSetHandle resource
 
 void DigestCommands::push_constants(std::span<const std::byte> bytes) {
   add(Command::constants, bytes.size());
-  hash_.bytes(bytes);
+  this->bytes(bytes);
   ForwardingCommands::push_constants(bytes);
 }
 

@@ -2,7 +2,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <span>
+#include <utility>
 
 #include "engine/core/hash.h"
 #include "engine/frame/forwarding_commands.h"
@@ -10,15 +15,26 @@
 
 namespace gloam {
 
+/// What a frame does: its commands, and the data that the CPU has written for it.
+struct FrameDigest {
+  std::uint64_t inputs = 0;  ///< without the places of resources whose roles swap from frame to frame
+  std::uint64_t whole = 0;   ///< with them
+  bool operator==(const FrameDigest&) const = default;
+};
+
 /// Forwards the commands of a frame to another CommandList and hashes what decides their results. What the CPU has
 /// written for the frame (MemoryKind::upload) counts by its bytes, because each frame has another place for it; all
 /// other objects count by their handles. Where results are copied to for the CPU does not count, nor do labels,
 /// timestamps and barriers.
 class DigestCommands final : public frame::ForwardingCommands {
  public:
-  DigestCommands(gpu::CommandList& next, gpu::Device& device) : ForwardingCommands(next), device_(device) {}
+  /// outlives: whether an object's contents are left by one frame for the next (History::owns). Such objects may swap
+  /// their roles, and do not count in FrameDigest::inputs.
+  using Outlives = std::function<bool(gpu::ImageHandle, gpu::BufferHandle)>;
+  DigestCommands(gpu::CommandList& next, gpu::Device& device, Outlives outlives)
+      : ForwardingCommands(next), device_(device), outlives_(std::move(outlives)) {}
 
-  [[nodiscard]] std::uint64_t digest() const { return hash_.digest(); }
+  [[nodiscard]] FrameDigest digest() const { return {inputs_.digest(), whole_.digest()}; }
 
   void copy_buffer(gpu::BufferHandle source, std::uint64_t source_offset, gpu::BufferHandle target,
                    std::uint64_t target_offset, std::uint64_t size) override;
@@ -54,6 +70,9 @@ class DigestCommands final : public frame::ForwardingCommands {
   enum class Command : std::uint8_t;
   template <class... Numbers>
   void add(Command command, Numbers... numbers);
+  template <class Number>
+  void value(Number number);
+  void bytes(std::span<const std::byte> data);
   void add_float(float number);
   void add_image(gpu::ImageHandle image);
   void add_view(const gpu::ImageView& view);
@@ -62,7 +81,8 @@ class DigestCommands final : public frame::ForwardingCommands {
   void add_binding(const gpu::Binding& binding);
 
   gpu::Device& device_;
-  Hasher hash_;
+  Outlives outlives_;
+  Hasher inputs_, whole_;
 };
 
 }  // namespace gloam

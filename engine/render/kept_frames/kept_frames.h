@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "engine/render/kept_frames/digest_commands.h"
 #include "engine/render/knobs/knob_table.h"
 
 namespace gloam {
@@ -39,17 +40,18 @@ inline constexpr EnumKnob<FrameReuse> kFrameReuse{
     .same_picture = true};
 
 /// Finds frames that would only write what is there already. Their commands are recorded and hashed (DigestCommands),
-/// but not given to the GPU. Resources and notes may swap their roles from frame to frame, so a frame is compared with
-/// the one two before it, which has left its results in the same places; and four frames must have repeated each other,
-/// so that decisions which are made from results of earlier frames have settled.
+/// but not given to the GPU. The inputs must be those of the last four frames, so that decisions which are made from
+/// results of earlier frames have settled. Resources and notes may swap their roles from frame to frame, so the places
+/// are compared with those of the frame two before, which has left its results there.
 class KeptFrames {
  public:
   /// Whether a frame with this digest repeats the frames before it.
-  [[nodiscard]] bool repeats(std::uint64_t digest) const {
-    return count_ >= last_.size() && digest == last_[1] && last_[0] == last_[2] && last_[1] == last_[3];
+  [[nodiscard]] bool repeats(const FrameDigest& digest) const {
+    return count_ >= last_.size() && digest == last_[1] && last_[0] == last_[2] && last_[1] == last_[3] &&
+           last_[0].inputs == last_[1].inputs;
   }
   /// Notes a committed frame, kept or drawn.
-  void add(std::uint64_t digest) {
+  void add(const FrameDigest& digest) {
     std::shift_right(last_.begin(), last_.end(), 1);
     last_.front() = digest;
     count_ = std::min(count_ + 1, last_.size());
@@ -58,7 +60,7 @@ class KeptFrames {
   void restart() { count_ = 0; }
 
  private:
-  std::array<std::uint64_t, 4> last_{};  ///< digests, newest first
+  std::array<FrameDigest, 4> last_{};  ///< newest first
   std::size_t count_ = 0;
 };
 

@@ -170,7 +170,7 @@ PipelineList parse_pipeline_record(std::string_view record, std::span<const gpu:
   if (end == std::string_view::npos) return {};
   const std::string_view body = record.substr(end + 1);
   const Json header = Json::parse(record.substr(0, end), nullptr, false);
-  if (header != Json{{"pipelines", kVersion}, {"checksum", checksum(body)}}) return {};
+  if (header.is_discarded() || header != Json{{"pipelines", kVersion}, {"checksum", checksum(body)}}) return {};
   const Json all = Json::parse(body, nullptr, false);
   if (all.is_discarded()) return {};
   PipelineList list;

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "engine/gpu/recording/device.h"
@@ -87,20 +88,25 @@ class DigestCommandsTest : public testing::Test {
     std::memset(bytes.data() + offset, value, end - offset);
     return made;
   }
-  std::uint64_t digest(const Recorded& record) {
+  FrameDigest digest(const Recorded& record) {
     NoCommands next;
-    DigestCommands commands(next, *device_);
+    DigestCommands commands(next, *device_, [this](gpu::ImageHandle image, gpu::BufferHandle buffer) {
+      return image ? image == kept_image_ : buffer == kept_buffer_;
+    });
     record(commands);
     return commands.digest();
   }
   void expect_all_differ(const std::vector<Recorded>& variants) {
     for (std::size_t i = 0; i < variants.size(); ++i) {
       EXPECT_EQ(digest(variants[i]), digest(variants[i])) << i;
-      for (std::size_t j = 0; j < i; ++j) EXPECT_NE(digest(variants[i]), digest(variants[j])) << i << " and " << j;
+      for (std::size_t j = 0; j < i; ++j)
+        EXPECT_NE(digest(variants[i]).inputs, digest(variants[j]).inputs) << i << " and " << j;
     }
   }
 
   std::unique_ptr<gpu::RecordingDevice> device_ = gpu::make_recording_device();
+  gpu::ImageHandle kept_image_;  ///< outlive their frames
+  gpu::BufferHandle kept_buffer_;
   std::uint8_t noise_ = 100;
 };
 
@@ -247,24 +253,58 @@ TEST_F(DigestCommandsTest, bindings_and_targets_count) {
                      rendering({x}, load, 0), rendering({x}, clear, 1)});
 }
 
-TEST(KeptFramesTest, four_frames_must_repeat_each_other) {
+TEST_F(DigestCommandsTest, places_of_what_outlives_frames_are_no_inputs) {
+  kept_image_ = image();
+  kept_buffer_ = buffer(gpu::MemoryKind::device);
+  const gpu::ImageHandle x = image();
+  const gpu::BufferHandle a = buffer(gpu::MemoryKind::device);
+  const auto record = [](gpu::ImageHandle shown, gpu::BufferHandle filled, std::uint64_t offset) -> Recorded {
+    return [=](gpu::CommandList& commands) {
+      commands.clear_color_image(shown, {0, 0, 0, 0}, {});
+      commands.fill_buffer(filled, offset, 16, 0);
+    };
+  };
+  const FrameDigest kept = digest(record(kept_image_, kept_buffer_, 0));
+  EXPECT_NE(kept.inputs, digest(record(x, kept_buffer_, 0)).inputs);
+  EXPECT_NE(kept.inputs, digest(record(kept_image_, a, 0)).inputs);
+  EXPECT_NE(kept.inputs, digest(record(kept_image_, kept_buffer_, 16)).inputs);
+  const gpu::ImageHandle image_before = std::exchange(kept_image_, image());
+  const gpu::BufferHandle buffer_before = std::exchange(kept_buffer_, buffer(gpu::MemoryKind::device));
+  const FrameDigest swapped = digest(record(kept_image_, kept_buffer_, 0));
+  EXPECT_EQ(kept.inputs, swapped.inputs);
+  EXPECT_NE(kept.whole, swapped.whole);
+  EXPECT_NE(image_before, kept_image_);
+  EXPECT_NE(buffer_before, kept_buffer_);
+}
+
+TEST(KeptFramesTest, inputs_repeat_and_places_may_alternate) {
   KeptFrames frames;
-  for (const std::uint64_t digest : {1u, 2u, 1u, 2u}) {
+  const FrameDigest even{1, 10}, odd{1, 11}, other{2, 10};
+  for (const FrameDigest& digest : {even, odd, even, odd}) {
     EXPECT_FALSE(frames.repeats(digest));
     frames.add(digest);
   }
-  EXPECT_TRUE(frames.repeats(1));
-  EXPECT_FALSE(frames.repeats(2));
-  frames.add(1);
-  EXPECT_TRUE(frames.repeats(2));
-  frames.add(3);  // something has changed
-  for (const std::uint64_t digest : {1u, 2u, 1u, 2u}) {
+  EXPECT_TRUE(frames.repeats(even));
+  EXPECT_FALSE(frames.repeats(odd));
+  frames.add(even);
+  EXPECT_TRUE(frames.repeats(odd));
+  frames.add(other);  // something has changed
+  for (const FrameDigest& digest : {even, odd, even, odd}) {
     EXPECT_FALSE(frames.repeats(digest));
     frames.add(digest);
   }
-  EXPECT_TRUE(frames.repeats(1));
+  EXPECT_TRUE(frames.repeats(even));
   frames.restart();
-  EXPECT_FALSE(frames.repeats(1));
+  EXPECT_FALSE(frames.repeats(even));
+}
+
+TEST(KeptFramesTest, inputs_that_alternate_do_not_repeat) {
+  KeptFrames frames;
+  for (int i = 0; i < 12; ++i) {
+    const FrameDigest digest{i % 2 == 0 ? 1u : 2u, 10};
+    EXPECT_FALSE(frames.repeats(digest)) << i;
+    frames.add(digest);
+  }
 }
 
 }  // namespace

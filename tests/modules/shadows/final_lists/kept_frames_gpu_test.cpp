@@ -103,6 +103,22 @@ TEST_F(WholeFrameReuse, frames_with_other_owners_or_knobs_are_drawn) {
   rest("after overlays");
 }
 
+TEST_F(WholeFrameReuse, what_goes_to_and_fro_is_drawn) {
+  rest("new scene");
+  for (int i = 0; i < 14; ++i) {
+    move_thing(1, dvec3(i % 2 == 0 ? 0.1 : -0.1, 0.0, 0.0));
+    draw_both("to and fro, frame " + std::to_string(i));
+    EXPECT_FALSE(kept()) << i;
+  }
+  // Two pictures in turn.
+  for (int i = 0; i < 14; ++i) {
+    settings.world_from_camera = at(i % 2 == 0 ? 0.1 : -0.1, 0.0, 0.0) * settings.world_from_camera;
+    draw_both("camera to and fro, frame " + std::to_string(i));
+    EXPECT_FALSE(kept()) << i;
+  }
+  rest("at last");
+}
+
 TEST_F(WholeFrameReuse, pictures_that_accumulate_are_drawn) {
   both("lighting.antialiasing", "taa");
   for (int i = 0; i < 24; ++i) {
