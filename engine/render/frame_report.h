@@ -32,8 +32,8 @@ struct FrameReport {
   double cpu_ms = 0.0;  ///< systems, declaration and recording
   double gpu_ms = 0.0;
   std::vector<PassTime> passes;
-  /// Nothing has changed since the frame before the last: the GPU has drawn nothing, pictures, results and counters are
-  /// those of the frames before, and there are no GPU times (scene.reuse).
+  /// Nothing has changed, so that the GPU has drawn nothing (scene.reuse). Pictures, results and counters are those of
+  /// the frames before, and GPU figures are of the last frame that was drawn.
   bool kept = false;
   /// When the last frame was given to the GPU: ZoneRecorder::now_ns just before; 0 without a recorder.
   std::uint64_t submitted_ns = 0;

@@ -78,10 +78,8 @@ FrameReport LastFrame::report(const ModuleSet& modules, FrameResources& resource
   FrameReport report;
   report.cpu_ms = cpu_ms;
   report.kept = kept;
-  if (!kept) {
-    report.passes = resources.graph.pass_times();
-    report.gpu_ms = resources.graph.gpu_ms();
-  }
+  report.passes = resources.graph.pass_times();
+  report.gpu_ms = resources.graph.gpu_ms();
   report.submitted_ns = submitted_ns;
   report.counters = counters(modules.list(), resources.results);
   if (!report.counters.empty()) report.counters["scene.kept"] = kept ? 1.0 : 0.0;

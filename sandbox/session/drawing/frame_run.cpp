@@ -23,7 +23,7 @@ Status FrameRun::draw(const ViewRequest& request) {
   sample.zones = session_.zones.take();
   samples_.push_back(std::move(sample));
   // The CPU times of this frame. Its GPU times follow, and the last frame of all is reported on when it has ended.
-  if (in_flight_ > 1) samples_.back().report = session_.renderer->report();
+  if (in_flight_ > 1) samples_.back().report = report_of_frame();
   return samples_.size() - finished_ < in_flight_ ? Status() : finish_oldest();
 }
 
@@ -33,10 +33,19 @@ Status FrameRun::finish_oldest() {
   GLOAM_TRY(newest ? session_.renderer->wait() : session_.device->wait_frame(numbers_[finished_]));
   sample.end_ns = session_.zones.now_ns();
   if (finished_ > 0) sample.previous_end_ns = samples_[finished_ - 1].end_ns;
-  if (newest) sample.report = session_.renderer->report();
+  if (newest) sample.report = report_of_frame();
   ++finished_;
   take_times();
   return {};
+}
+
+FrameReport FrameRun::report_of_frame() const {
+  FrameReport report = session_.renderer->report();
+  if (report.kept) {  // its GPU figures are of an earlier frame
+    report.gpu_ms = 0.0;
+    report.passes.clear();
+  }
+  return report;
 }
 
 void FrameRun::take_times() {

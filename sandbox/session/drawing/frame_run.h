@@ -27,6 +27,8 @@ class FrameRun {
  private:
   [[nodiscard]] Status finish_oldest();
   /// Gives the GPU times that have arrived to their frames.
+  /// The report of the frame drawn last.
+  [[nodiscard]] FrameReport report_of_frame() const;
   void take_times();
 
   Session& session_;
