@@ -70,27 +70,17 @@ Pipelines::~Pipelines() {
   for (auto& [name, entry] : entries_) device_.destroy(entry.pipeline);
 }
 
-std::optional<gpu::PipelineHandle> Pipelines::find_or_begin(std::uint64_t key) {
-  std::unique_lock lock(mutex_);
-  made_one_.wait(lock, [&] { return !making_.contains(key); });
+std::optional<gpu::PipelineHandle> Pipelines::find_or_take(std::uint64_t key) {
+  const std::lock_guard lock(mutex_);
   if (const auto found = entries_.find(key); found != entries_.end()) return found->second.pipeline;
   if (std::erase_if(queue_, [&](const AnyDesc& queued) { return key_of_any(queued) == key; }) > 0) begun_.erase(key);
-  making_.insert(key);
   return std::nullopt;
-}
-
-void Pipelines::end_making(std::uint64_t key) {
-  {
-    const std::lock_guard lock(mutex_);
-    making_.erase(key);
-  }
-  made_one_.notify_all();
 }
 
 template <class Desc>
 Result<gpu::PipelineHandle> Pipelines::find_or_make(const Desc& desc) {
   const std::uint64_t key = key_of(desc);
-  if (const auto found = find_or_begin(key)) return *found;
+  if (const auto found = find_or_take(key)) return *found;
   Desc named = desc;
   named.name = name_of(desc);
   {
@@ -104,14 +94,13 @@ Result<gpu::PipelineHandle> Pipelines::find_or_make(const Desc& desc) {
     // The new code of a replaced shader may not use all constants.
     if (!replaced_.empty()) named.constants = desc.constants.where_present();
   }
-  const auto made = device_.create_pipeline(named);  // outside the lock: compiling takes long
-  if (made.ok()) {
-    const std::lock_guard lock(mutex_);
-    failed_.erase(key);
-    entries_.insert_or_assign(key, Entry{desc, *made});
-  }
-  end_making(key);
-  return made;
+  auto made = device_.create_pipeline(named);  // outside the lock: compiling takes long
+  if (!made.ok()) return made.error();
+  const std::lock_guard lock(mutex_);
+  failed_.erase(key);
+  const auto [place, fresh] = entries_.try_emplace(key, Entry{desc, *made});
+  if (!fresh) device_.destroy(*made);  // another thread was faster
+  return place->second.pipeline;
 }
 
 template Result<gpu::PipelineHandle> Pipelines::find_or_make(const gpu::ComputePipelineDesc&);

@@ -79,10 +79,8 @@ class Pipelines {
     PipelineList::value_type desc;
     gpu::PipelineHandle pipeline;
   };
-  /// Waits until no other thread makes this pipeline. Then either it exists, or it is this thread's to make and no
-  /// longer queued: end_making() must follow.
-  [[nodiscard]] std::optional<gpu::PipelineHandle> find_or_begin(std::uint64_t key);
-  void end_making(std::uint64_t key);
+  /// The pipeline, if it exists. Otherwise it is the caller's to make, and no longer queued.
+  [[nodiscard]] std::optional<gpu::PipelineHandle> find_or_take(std::uint64_t key);
   /// The words that replace those of a shader; without words, the shader itself.
   [[nodiscard]] gpu::ShaderCode current(const gpu::ShaderCode& shader) const;
   void run_worker(const std::stop_token& stop, LogSink& log);
@@ -93,8 +91,6 @@ class Pipelines {
   mutable std::mutex mutex_;
   std::unordered_map<std::uint64_t, Entry> entries_;       ///< by hash of module and description, as the members below
   std::unordered_set<std::uint64_t> begun_;                ///< queued or being compiled in the background
-  std::unordered_set<std::uint64_t> making_;               ///< being compiled by any thread
-  std::condition_variable made_one_;                       ///< making_ has lost one
   std::unordered_map<std::uint64_t, std::string> failed_;  ///< failed in the background: module
   /// By name. Devices may identify shaders by the address of their words, so that replaced words stay.
   std::unordered_map<std::string, std::deque<std::vector<std::uint32_t>>> replaced_;
