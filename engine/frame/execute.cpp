@@ -94,6 +94,8 @@ std::vector<FrameGraph::UselessPass> FrameGraph::useless_passes() const {
 
 void FrameGraph::give_up_frame() { state_->cache.give_up_execution(); }
 
+void FrameGraph::drop_times(std::uint64_t frame) { state_->timer.drop_frame(frame); }
+
 const Status& FrameGraph::recorded() const { return state_->recorded; }
 
 std::string_view FrameGraph::recording() const {

@@ -19,6 +19,13 @@ void PassTimer::begin_frame(std::uint64_t frame) {
   stamps_ = 0;
 }
 
+void PassTimer::drop_frame(std::uint64_t frame) {
+  FrameRecord& record = records_[current_];
+  if (record.frame != frame || !record.waits) return;
+  record.waits = false;
+  current_ = (current_ + records_.size() - 1) % records_.size();
+}
+
 void PassTimer::begin_pass(gpu::CommandList& commands, bool stamp) {
   const bool fresh = stamp || stamps_ == 0;
   pass_begin_ = kNone;

@@ -23,6 +23,8 @@ class PassTimer {
   static constexpr std::size_t kFramesKept = 4;  ///< completed frames that take() returns
 
   void begin_frame(std::uint64_t frame);
+  /// Forgets the frame, if it is the one begun last: the GPU does not execute it, and it has no times.
+  void drop_frame(std::uint64_t frame);
   /// Writes the timestamp with which the next pass begins. Without `stamp`, it begins where the last one has ended.
   void begin_pass(gpu::CommandList& commands, bool stamp);
   /// Writes the timestamp with which the pass ends. Passes for which no timestamps are left are not timed.

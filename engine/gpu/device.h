@@ -54,6 +54,8 @@ class Device {
 
   [[nodiscard]] virtual const BufferDesc& desc(BufferHandle buffer) const = 0;
   [[nodiscard]] virtual const ImageDesc& desc(ImageHandle image) const = 0;
+  /// Whether the image belongs to a window or a host, who may change its contents between frames.
+  [[nodiscard]] virtual bool is_foreign(ImageHandle) const { return false; }
   /// The mapped bytes of the whole buffer, which must be an upload or readback buffer.
   [[nodiscard]] virtual std::span<std::byte> mapped(BufferHandle buffer) = 0;
 
@@ -83,6 +85,9 @@ class Device {
   /// (record_next_frame_into) submit this one themselves.
   [[nodiscard]] virtual Result<CommandList*> begin_side_frame() { return begin_frame(); }
   [[nodiscard]] virtual Status submit_frame() = 0;
+  /// Whether the frame being recorded goes into a command buffer of the host, who submits it
+  /// (record_next_frame_into): it may be abandoned only if the host is told so by an error.
+  [[nodiscard]] virtual bool records_for_host() const { return false; }
   /// Ends the frame like submit_frame, but drops its commands, wherever the recording has stopped: the GPU executes
   /// none of them, and images are as the frame before has left them. The frame still completes in order, and its
   /// semaphores are waited for and signalled. submit_frame does the same if it returns an error of the recording.

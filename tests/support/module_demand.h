@@ -33,7 +33,6 @@ class ModuleDemand : public testing::Test {
     options.zones = &zones;
     options.modules = make_all_modules();
     renderer = Renderer::create(std::move(options)).value();
-    EXPECT_TRUE(renderer->knobs().set("scene.reuse", "off").ok());  // kept frames have no passes
     renderer->prepare_world(world);
     scene = std::make_unique<SceneMaker>(world);
   }

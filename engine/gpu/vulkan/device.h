@@ -78,6 +78,8 @@ class VulkanDevice final : public Device {
   [[nodiscard]] Result<CommandList*> begin_side_frame() override { return begin(true); }
   [[nodiscard]] Status submit_frame() override;
   [[nodiscard]] Status abandon_frame() override;
+  [[nodiscard]] bool records_for_host() const override { return frames_->records_for_host(); }
+  [[nodiscard]] bool is_foreign(ImageHandle image) const override { return !images_.get(image).memory; }
   [[nodiscard]] Status wait_frame(std::uint64_t frame) override { return frames_->wait_frame(frame); }
   [[nodiscard]] std::uint64_t frame_number() const override { return frames_->number(); }
   [[nodiscard]] std::uint64_t completed_frames() const override { return frames_->completed(); }

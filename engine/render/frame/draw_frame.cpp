@@ -134,9 +134,11 @@ void commit_frame(Frame& frame, std::span<const ViewRequest> requests, RendererP
 }
 
 /// Whether the last frame may be kept in place of this one, if it repeats it. Before the frame is recorded. Not where
-/// the caller draws into the picture, or has an image of its own in which somebody else may have drawn since.
+/// the caller draws into the picture, has an image of its own in which somebody else may have drawn since, or submits
+/// the frame.
 bool may_keep(const Frame& frame, const RendererParts& parts) {
-  if (frame.redraw != nullptr || frame.any_needs(parts.modules, &Module::changes_at_rest) ||
+  if (frame.redraw != nullptr || parts.options.device->records_for_host() ||
+      frame.any_needs(parts.modules, &Module::changes_at_rest) ||
       frame.any_needs(parts.modules, &Module::computes_every_frame))
     return false;
   return std::ranges::all_of(frame.views, [&](const FrameView& own) {
@@ -169,9 +171,11 @@ Status record(Frame& frame, RendererParts& parts, gpu::CommandList& commands, st
 /// Submits a recorded frame, or drops its commands if the last frames did the same.
 Status finish(const std::optional<FrameDigest>& digest, RendererParts& parts) {
   gpu::Device& device = *parts.options.device;
+  const std::uint64_t number = device.frame_number();
   parts.last_frame.kept = digest && parts.kept_frames.repeats(*digest);
   parts.last_frame.submitted_ns = parts.options.zones == nullptr ? 0 : parts.options.zones->now_ns();
   GLOAM_TRY(parts.last_frame.kept ? device.abandon_frame() : device.submit_frame());
+  if (parts.last_frame.kept) parts.resources.graph.drop_times(number);
   if (digest)
     parts.kept_frames.add(*digest);
   else

@@ -55,6 +55,7 @@ void DigestCommands::bytes(std::span<const std::byte> data) { value(hash_bytes(d
 void DigestCommands::add_float(float number) { value(std::bit_cast<std::uint32_t>(number)); }
 
 void DigestCommands::add_image(gpu::ImageHandle image) {
+  foreign_ = foreign_ || (image && device_.is_foreign(image));
   whole_.value(image.index).value(image.generation);
   if (!outlives_(image, {})) inputs_.value(image.index).value(image.generation);
 }

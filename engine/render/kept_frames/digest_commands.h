@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -34,7 +35,10 @@ class DigestCommands final : public frame::ForwardingCommands {
   DigestCommands(gpu::CommandList& next, gpu::Device& device, Outlives outlives)
       : ForwardingCommands(next), device_(device), outlives_(std::move(outlives)) {}
 
-  [[nodiscard]] FrameDigest digest() const { return {inputs_.digest(), whole_.digest()}; }
+  /// None if the frame uses an image of a window or a host, whose contents are not known.
+  [[nodiscard]] std::optional<FrameDigest> digest() const {
+    return foreign_ ? std::nullopt : std::optional(FrameDigest{inputs_.digest(), whole_.digest()});
+  }
 
   void copy_buffer(gpu::BufferHandle source, std::uint64_t source_offset, gpu::BufferHandle target,
                    std::uint64_t target_offset, std::uint64_t size) override;
@@ -83,6 +87,7 @@ class DigestCommands final : public frame::ForwardingCommands {
   gpu::Device& device_;
   Outlives outlives_;
   Hasher inputs_, whole_;
+  bool foreign_ = false;
 };
 
 }  // namespace gloam

@@ -94,7 +94,7 @@ class DigestCommandsTest : public testing::Test {
       return image ? image == kept_image_ : buffer == kept_buffer_;
     });
     record(commands);
-    return commands.digest();
+    return commands.digest().value();
   }
   void expect_all_differ(const std::vector<Recorded>& variants) {
     for (std::size_t i = 0; i < variants.size(); ++i) {

@@ -147,7 +147,6 @@ Status Frames::submit(bool discard) {
   if (for_host) host_commands_ = VK_NULL_HANDLE;
   VkResult result = discard || for_host ? VK_SUCCESS : context_.vk.vkEndCommandBuffer(slot.commands);
   last_discarded_ = discard;
-  if (discard) slot.written.assign(Device::kTimestampsPerFrame, false);
   host_must_submit_ = for_host && !discard;
   if (host_must_submit_) {
     GLOAM_ASSERT(waits_.empty() && signals_.empty(),
@@ -163,7 +162,7 @@ Status Frames::submit(bool discard) {
     return failure("Submitting frame " + std::to_string(number()), result);
   }
   const std::lock_guard lock(timestamps_mutex_);
-  slot.has_timestamps = true;
+  slot.has_timestamps = !discard;
   ++number_;
   return {};
 }

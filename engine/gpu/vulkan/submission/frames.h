@@ -47,6 +47,12 @@ class Frames {
   /// Waits for a submitted frame.
   [[nodiscard]] Status wait_frame(std::uint64_t frame);
 
+  /// Device::records_for_host.
+  [[nodiscard]] bool records_for_host() const {
+    const Slot& slot = slots_[number() % Device::kFramesInFlight];
+    return recording_ && slot.recorded != slot.commands;
+  }
+
   void write_timestamp(std::uint32_t index);
   [[nodiscard]] std::vector<std::uint64_t> timestamps(std::uint64_t frame);
 

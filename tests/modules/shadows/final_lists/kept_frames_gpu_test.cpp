@@ -60,6 +60,7 @@ TEST_F(WholeFrameReuse, what_changes_is_drawn_and_what_rests_is_kept) {
   const FrameReport report = keeping_.renderer->report();
   EXPECT_TRUE(report.kept);
   EXPECT_FALSE(plain_.renderer->report().kept);
+  EXPECT_FALSE(report.passes.empty()) << "those of the last frame that was drawn";
   EXPECT_EQ(counted.at("scene.kept"), 0.0);
   counted["scene.kept"] = 1.0;
   EXPECT_EQ(report.counters, counted);
