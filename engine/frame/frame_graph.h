@@ -133,8 +133,8 @@ class FrameGraph {
 
   /// Call it if the GPU does not execute the commands of the last execute().
   void give_up_frame();
-  /// Call it if the commands of the frame with this gpu::Device::frame_number were dropped, because they would have left
-  /// everything as it is: the frame has no times.
+  /// Call it if the commands of the frame with this gpu::Device::frame_number were dropped, because they would have
+  /// left everything as it is: the frame has no times.
   void drop_times(std::uint64_t frame);
 
   /// The declared passes that write nothing and are not kept, so they are always culled: a mistake in their

@@ -161,7 +161,6 @@ inline constexpr NumberKnob kShadowLodTexels{
         "scenes of more than 131,072 triangles; 0: all triangles are drawn",
     .max = 2.0,
     .default_value = 0.5,
-    .exact = 0.0,
     .unit = "texels",
     .ledger_values = {0.0, 0.125, 0.25, 0.5, 1.0},
     .only_with = "shadows.mode=monolithic|deferred"};
@@ -193,7 +192,6 @@ inline constexpr NumberKnob kShadowMinContribution{
         "tile's pixels; all such lights of a tile add at most four times this; only with a fixed exposure",
     .max = 1.0 / 64.0,
     .default_value = 0.0,
-    .exact = 0.0,
     .unit = "of white before the tone curve",
     .ledger_values = {0.0, 1.0 / 1024.0, 1.0 / 512.0, 1.0 / 256.0},
     .only_with = "shadows.mode=deferred"};

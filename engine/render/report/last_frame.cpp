@@ -43,6 +43,7 @@ ViewCounters count_view(const ModuleSet& modules, const FrameBuilder& builder) {
   MapSink sink(view.counters);
   sink.count("engine.draws", static_cast<double>(builder.draws().solid.size() + builder.draws().blended.size()));
   sink.count("engine.culled_primitives", builder.draws().culled_instances);
+  sink.count("scene.kept", 0.0);  // LastFrame::report
   sink.count("scene.clusters", static_cast<double>(builder.draws().clusters.size()));
   sink.count("scene.clusters_culled", 0.0);
   sink.count("scene.triangles", solid_triangles(builder.draws()));
@@ -82,7 +83,8 @@ FrameReport LastFrame::report(const ModuleSet& modules, FrameResources& resource
   report.gpu_ms = resources.graph.gpu_ms();
   report.submitted_ns = submitted_ns;
   report.counters = counters(modules.list(), resources.results);
-  if (!report.counters.empty()) report.counters["scene.kept"] = kept ? 1.0 : 0.0;
+  if (const auto found = report.counters.find("scene.kept"); found != report.counters.end() && kept)
+    found->second = 1.0;
   report.views = views_;
   report.plans_compiled = resources.graph.plans_compiled();
   report.pipelines_pending = resources.pipelines.pending();
