@@ -132,7 +132,7 @@ class Renderer {
   /// error if the words are no SPIR-V, or if passes that were written for the embedded shader cannot use them
   /// (gpu::interface_difference); then nothing changes.
   [[nodiscard]] Status replace_shader(const gpu::ShaderCode& embedded, std::vector<std::uint32_t> words);
-  /// All pipelines that exist, as text for make_pipelines() of a later process.
+  /// All pipelines that frames have asked for, as text for make_pipelines() of a later process.
   [[nodiscard]] std::string pipeline_record() const;
   /// Has the pipelines of a record made in the background, for example while a scene is loaded, so that the first frame
   /// finds them. shaders: those that pipelines may have; they must outlive the renderer. Pipelines of other shaders,

@@ -3,7 +3,6 @@
 #include "engine/render/pipelines/pipelines.h"
 
 #include <algorithm>
-#include <functional>
 #include <system_error>
 #include <type_traits>
 
@@ -70,17 +69,20 @@ Pipelines::~Pipelines() {
   for (auto& [name, entry] : entries_) device_.destroy(entry.pipeline);
 }
 
-std::optional<gpu::PipelineHandle> Pipelines::find_or_take(std::uint64_t key) {
+std::optional<gpu::PipelineHandle> Pipelines::find_or_take(std::uint64_t key, bool in_background) {
   const std::lock_guard lock(mutex_);
-  if (const auto found = entries_.find(key); found != entries_.end()) return found->second.pipeline;
+  if (const auto found = entries_.find(key); found != entries_.end()) {
+    found->second.asked_for = found->second.asked_for || !in_background;
+    return found->second.pipeline;
+  }
   if (std::erase_if(queue_, [&](const AnyDesc& queued) { return key_of_any(queued) == key; }) > 0) begun_.erase(key);
   return std::nullopt;
 }
 
 template <class Desc>
-Result<gpu::PipelineHandle> Pipelines::find_or_make(const Desc& desc) {
+Result<gpu::PipelineHandle> Pipelines::find_or_make(const Desc& desc, bool in_background) {
   const std::uint64_t key = key_of(desc);
-  if (const auto found = find_or_take(key)) return *found;
+  if (const auto found = find_or_take(key, in_background)) return *found;
   Desc named = desc;
   named.name = name_of(desc);
   {
@@ -99,18 +101,21 @@ Result<gpu::PipelineHandle> Pipelines::find_or_make(const Desc& desc) {
   const std::lock_guard lock(mutex_);
   failed_.erase(key);
   const auto [place, fresh] = entries_.try_emplace(key, Entry{desc, *made});
+  place->second.asked_for = place->second.asked_for || !in_background;
   if (!fresh) device_.destroy(*made);  // another thread was faster
   return place->second.pipeline;
 }
 
-template Result<gpu::PipelineHandle> Pipelines::find_or_make(const gpu::ComputePipelineDesc&);
-template Result<gpu::PipelineHandle> Pipelines::find_or_make(const gpu::GraphicsPipelineDesc&);
+template Result<gpu::PipelineHandle> Pipelines::find_or_make(const gpu::ComputePipelineDesc&, bool);
+template Result<gpu::PipelineHandle> Pipelines::find_or_make(const gpu::GraphicsPipelineDesc&, bool);
 
 template <class Desc>
 gpu::PipelineHandle Pipelines::find_existing(const Desc& desc) const {
   const std::lock_guard lock(mutex_);
   const auto found = entries_.find(key_of(desc));
-  return found == entries_.end() ? gpu::PipelineHandle{} : found->second.pipeline;
+  if (found == entries_.end()) return {};
+  found->second.asked_for = true;
+  return found->second.pipeline;
 }
 gpu::PipelineHandle Pipelines::find(const gpu::ComputePipelineDesc& desc) const { return find_existing(desc); }
 gpu::PipelineHandle Pipelines::find(const gpu::GraphicsPipelineDesc& desc) const { return find_existing(desc); }
@@ -155,7 +160,7 @@ void Pipelines::make_first(std::unique_lock<std::mutex>& lock, LogSink& log) {
   const std::string name = std::visit([](const auto& d) { return name_of(d); }, desc);
   made_ = name;
   lock.unlock();
-  const auto made = std::visit([&](const auto& d) { return get(d); }, desc);
+  const auto made = std::visit([&](const auto& d) { return find_or_make(d, true); }, desc);
   if (!made.ok()) log.warning("pipeline " + name + " failed in the background: " + made.error().message);
   lock.lock();
   begun_.erase(key_of_any(desc));
@@ -187,7 +192,8 @@ std::uint64_t Pipelines::replacements() const {
 std::string Pipelines::record() const {
   PipelineList list;
   const std::lock_guard lock(mutex_);
-  for (const auto& [key, entry] : entries_) list.push_back(entry.desc);
+  for (const auto& [key, entry] : entries_)
+    if (entry.asked_for) list.push_back(entry.desc);
   return pipeline_record(list);
 }
 
@@ -198,7 +204,7 @@ std::size_t Pipelines::request_record(std::string_view record, std::span<const g
     const std::lock_guard lock(mutex_);
     list = parse_pipeline_record(record, shaders, names_);
   }
-  std::ranges::stable_sort(list, std::greater(), words_of);
+  std::ranges::stable_sort(list, {}, words_of);
   static_cast<void>(request(list, log));
   return list.size();
 }

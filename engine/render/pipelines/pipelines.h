@@ -59,11 +59,13 @@ class Pipelines {
   void replace_shader(std::string_view name, std::vector<std::uint32_t> words);
   /// Calls of replace_shader() so far. Pictures of before may differ from those that the same inputs give now.
   [[nodiscard]] std::uint64_t replacements() const;
-  /// The descriptions of all pipelines that exist, as text for request_record() of a later process.
+  /// The descriptions of all pipelines that get() or find() was asked for, as text for request_record() of a later
+  /// process.
   [[nodiscard]] std::string record() const;
-  /// Has the pipelines of a record made in the background, largest shader first, for example while a scene is loaded:
-  /// those of `shaders`, which must live as long as this object. Others are left out, as is all of a damaged record.
-  /// Returns their number.
+  /// Has the pipelines of a record made in the background, smallest shader first, for example while a scene is loaded:
+  /// frames begin with the largest, so the two meet at a small one, which both may make.
+  /// shaders: those that may be in the record; they must live as long as this object. Pipelines of others are left out,
+  /// and a damaged record is. Returns the number of pipelines.
   std::size_t request_record(std::string_view record, std::span<const gpu::ShaderCode* const> shaders, LogSink& log);
   /// Destroys all pipelines of a module, removes its queued ones and forgets its failures. A pipeline that is being
   /// compiled in the background stays.
@@ -71,16 +73,17 @@ class Pipelines {
 
  private:
   template <class Desc>
-  [[nodiscard]] Result<gpu::PipelineHandle> find_or_make(const Desc& desc);
+  [[nodiscard]] Result<gpu::PipelineHandle> find_or_make(const Desc& desc, bool in_background = false);
   template <class Desc>
   [[nodiscard]] gpu::PipelineHandle find_existing(const Desc& desc) const;
 
   struct Entry {
     PipelineList::value_type desc;
     gpu::PipelineHandle pipeline;
+    mutable bool asked_for = false;  ///< not only made in the background
   };
   /// The pipeline, if it exists. Otherwise it is the caller's to make, and no longer queued.
-  [[nodiscard]] std::optional<gpu::PipelineHandle> find_or_take(std::uint64_t key);
+  [[nodiscard]] std::optional<gpu::PipelineHandle> find_or_take(std::uint64_t key, bool in_background);
   /// The words that replace those of a shader; without words, the shader itself.
   [[nodiscard]] gpu::ShaderCode current(const gpu::ShaderCode& shader) const;
   void run_worker(const std::stop_token& stop, LogSink& log);

@@ -115,7 +115,7 @@ TEST(PipelineRecord, recorded_pipelines_are_made_once_in_the_background_or_by_th
     EXPECT_TRUE(pipelines.find(graphics()));
     EXPECT_EQ(device->pipeline_count("lights"), 1u);
     EXPECT_EQ(device->pipeline_count("shadows"), 1u);
-    EXPECT_EQ(pipelines.record(), record);
+    EXPECT_EQ(pipelines.record(), record) << "find() has asked for the other one";
   }
   EXPECT_TRUE(device->faults().empty()) << device->faults().front();
 }
