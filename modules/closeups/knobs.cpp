@@ -15,7 +15,7 @@ CloseupKnobs closeup_knobs(const KnobRegistry& registry) {
   knobs.texels_per_pixel = static_cast<float>(registry.value(kCloseupTexelsPerPixel));
   knobs.batch = registry.value(kCloseupBatch);
   knobs.single_fetches = registry.value(kCloseupSingleFetches);
-  knobs.keeps_maps = registry.value(kShadowReuse) == ShadowReuse::exact;
+  knobs.keeps_maps = registry.value(kShadowReuse) != ShadowReuse::off;
   knobs.draws_standard = registry.value(kCloseupDrawsStandard);
   return knobs;
 }

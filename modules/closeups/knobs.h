@@ -57,7 +57,7 @@ struct CloseupKnobs {
   float texels_per_pixel = 1.0f;
   std::uint32_t batch = 1;      ///< pairs that share the close-up map at a time: 1, 2 or 4
   bool single_fetches = true;   ///< filter of close-up maps: single fetches; false: the filter of standard maps
-  bool keeps_maps = true;       ///< shadows.reuse=exact: maps of subjects that hold still are kept
+  bool keeps_maps = true;       ///< shadows.reuse is not off: maps of subjects that hold still are kept
   bool draws_standard = false;  ///< true: subjects are drawn into the overlay; false: transferred from the close-up map
 };
 

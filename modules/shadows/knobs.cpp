@@ -39,7 +39,7 @@ ShadowKnobs shadow_knobs(const KnobRegistry& registry) {
   knobs.near = registry.value(kShadowNear);
   knobs.near_directions = registry.value(kShadowNearDirections);
   knobs.thin_filter = registry.try_value(kGrassShadowFilter).value_or(0);
-  knobs.reuse = registry.value(kShadowReuse) == ShadowReuse::exact;
+  knobs.reuse = registry.value(kShadowReuse);
   knobs.min_contribution = static_cast<float>(registry.value(kShadowMinContribution));
   knobs.early_outs = registry.value(kShadowEarlyOuts);
   knobs.deferred = registry.value(kShadowMode) == ShadowMode::deferred;

@@ -221,13 +221,13 @@ struct ShadowKnobs {
   float lod_texels = 0.0f;  ///< greatest error of casters' levels of detail; 0: there are none
   std::uint32_t near = 1;   ///< estimate of near blockers: 0 off, 1 wide, 2 all
   std::uint32_t near_directions = 16;
-  bool terminator = false;        ///< smooth-shaded surfaces are judged at their smooth surface
-  bool subsurface_backs = false;  ///< closed bodies that light passes through are drawn without their lit side
-  bool transmission = false;      ///< the scene has materials that light passes through
-  std::uint32_t thin_filter = 0;  ///< value of kThinFilter (shadows_api.glsl)
-  bool reuse = true;              ///< visibilities of the last frame are kept where nothing has changed
-  float min_contribution = 0.0f;  ///< of white before the tone curve; 0: no light is dim
-  bool early_outs = true;         ///< a filter stops as soon as the result is known; false only for measurements
+  bool terminator = false;                 ///< smooth-shaded surfaces are judged at their smooth surface
+  bool subsurface_backs = false;           ///< closed bodies that light passes through are drawn without their lit side
+  bool transmission = false;               ///< the scene has materials that light passes through
+  std::uint32_t thin_filter = 0;           ///< value of kThinFilter (shadows_api.glsl)
+  ShadowReuse reuse = ShadowReuse::exact;  ///< visibilities of the last frame that are kept
+  float min_contribution = 0.0f;           ///< of white before the tone curve; 0: no light is dim
+  bool early_outs = true;  ///< a filter stops as soon as the result is known; false only for measurements
 };
 
 /// The knobs that systems read; a view resource.

@@ -60,7 +60,8 @@ inline constexpr EnumKnob<ShadowMode> kShadowMode{
 /// What of the last frame's visibilities a frame keeps.
 enum class ShadowReuse : std::uint8_t {
   off,
-  exact,  ///< those of tiles and lights of which nothing has changed
+  exact,        ///< those of tiles and lights of which nothing has changed
+  reprojected,  ///< and of the same points of surfaces, where no caster in the light's way has moved
 };
 [[nodiscard]] constexpr std::string_view name_of(ShadowReuse reuse) {
   switch (reuse) {
@@ -68,19 +69,21 @@ enum class ShadowReuse : std::uint8_t {
       return "off";
     case ShadowReuse::exact:
       return "exact";
+    case ShadowReuse::reprojected:
+      return "reprojected";
   }
   return {};
 }
 inline constexpr EnumKnob<ShadowReuse> kShadowReuse{
     .name = "shadows.reuse",
     .meaning =
-        "visibilities of the last frame that are kept: none, or those of pairs of a tile and a light of which nothing "
+        "visibilities of the last frame that are kept: none; or those of pairs of a tile and a light of which nothing "
         "has changed, neither pixels nor light nor casters, and the maps of close-up subjects that hold still (exact: "
-        "the picture is the same to the bit); cost and bench set off, so that what they measure at rest is what a "
-        "moving camera pays",
+        "the picture is the same to the bit); or also those of surfaces that the camera saw elsewhere in the last "
+        "frame, where no caster that has moved is in the light's way (reprojected: each tile is made anew every fourth "
+        "frame); cost and bench set off, so that what they measure at rest is what a moving camera pays",
     .default_value = ShadowReuse::exact,
     .exact = ShadowReuse::off,
-    .same_picture = true,
     .only_with = "shadows.mode=deferred"};
 
 /// A knob of the grass module, which this module obeys. Values of kThinFilter (shadows_api.glsl).

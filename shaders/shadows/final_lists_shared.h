@@ -39,12 +39,15 @@
 #define GLOAM_CANDIDATES_DIRECTIONAL 2
 #define GLOAM_CANDIDATES_TWO_GROUPS 1  // is added
 #define GLOAM_CANDIDATE_KINDS 4
-#define GLOAM_CANDIDATE_GROUP 64            // candidates of a workgroup
-#define GLOAM_LIGHT_CHANGED 0xFFFFFFFFu     // in place of a light's index in the frame before
-#define GLOAM_LIGHT_RECOMPOSED 0x80000000u  // added to that index: later modules change its visibilities otherwise
-#define GLOAM_MOST_KEPT_LIGHTS 128u         // of a kind; tiles with more keep none
-#define GLOAM_DIM_LIGHT 0x80000000u         // flag of an entry's index in candidates and pairs: the light is dim
-#define GLOAM_PARTLY_REACHED 0x40000000u    // flag in pairs: the light may not illuminate all pixels of the tile
+#define GLOAM_CANDIDATE_GROUP 64               // candidates of a workgroup
+#define GLOAM_LIGHT_CHANGED 0xFFFFFFFFu        // in place of a light's index in the frame before
+#define GLOAM_LIGHT_RECOMPOSED 0x80000000u     // added to that index: later modules change its visibilities otherwise
+#define GLOAM_LIGHT_REPROJECTED 0x40000000u    // the same: its visibilities cannot be kept, but reprojected
+#define GLOAM_LIGHT_CASTERS_MOVED 0x20000000u  // the same: where no caster that has moved is in its way
+#define GLOAM_LAST_INDEX 0x1FFFFFFFu           // the index without these flags
+#define GLOAM_MOST_KEPT_LIGHTS 128u            // of a kind; tiles with more keep none
+#define GLOAM_DIM_LIGHT 0x80000000u            // flag of an entry's index in candidates and pairs: the light is dim
+#define GLOAM_PARTLY_REACHED 0x40000000u       // flag in pairs: the light may not illuminate all pixels of the tile
 #define GLOAM_ENTRY_FLAGS 0xC0000000u
 #define GLOAM_DIM_LIGHTS 4.0  // most light that dim lights may add to a tile, over FinalGrid::dim_light
 #define GLOAM_DIM_PIXELS 8    // pixels of a tile that are asked about a dim light, one in each row
@@ -76,6 +79,7 @@ struct KeptTile {
   // have still to look at them in this frame.
   uint composed;
   uint anew;
+  uint reprojected;  // their visibilities are not exact: they were reprojected (reproject.glsl)
 };
 
 /// Arguments of indirect commands, written by the GPU.
@@ -120,6 +124,7 @@ struct ShadowListCounters {
   uint reserved_slots;   // of `slots`: those of reserved tiles, in frames with reserved slots
   uint other_slots;      // of `slots`: those of other tiles, in frames with reserved slots
   uint kept;             // tile lights whose visibilities are those of the frame before
+  uint reprojected;      // tile lights whose visibilities are reprojected from the frame before
   uint dim;              // pairs of dim lights (of `pairs`)
   uint dim_light;  // the greatest sum of a tile's bounds of dim lights over FinalGrid::dim_light, as a float's bits
 };

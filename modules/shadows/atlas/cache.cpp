@@ -93,7 +93,7 @@ std::vector<FaceContent> face_contents(std::span<const ShadowFace> faces, std::s
     for (std::size_t g = range.begin; g < range.end; ++g) {
       std::vector<std::uint32_t> reached = casters_in_reach(faces[groups[g].begin], casters);
       if (const std::span<const Entity> left_out = withheld.of(faces[groups[g].begin].light); !left_out.empty())
-        std::erase_if(reached, [&](std::uint32_t i) { return is_withheld(left_out, casters[i].entity); });
+        std::erase_if(reached, [&](std::uint32_t i) { return holds_caster(left_out, casters[i].entity); });
       for (std::size_t f = groups[g].begin; f < groups[g].end; ++f) {
         const FaceVolume volume = face_volume(faces[f]);
         FaceContent& content = contents[f];

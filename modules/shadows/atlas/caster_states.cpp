@@ -125,8 +125,8 @@ std::vector<Entity> lights_of(const WithheldCasters& a, const WithheldCasters& b
 
 }  // namespace
 
-bool is_withheld(std::span<const Entity> withheld, Entity caster) {
-  return !withheld.empty() && std::binary_search(withheld.begin(), withheld.end(), caster, by_entity);
+bool holds_caster(std::span<const Entity> list, Entity caster) {
+  return !list.empty() && std::binary_search(list.begin(), list.end(), caster, by_entity);
 }
 
 std::vector<std::uint64_t> caster_poses(const World& world, const FrameDraws& draws) {
@@ -222,7 +222,7 @@ std::uint64_t CasterHistory::withheld_hash(Entity light) const {
     for (; at != meshes.end() && at->entity == entity; ++at) add(*at);
   }
   for (const CasterState& source : all.last(sources_))
-    if (is_withheld(casters, source.entity)) add(source);
+    if (holds_caster(casters, source.entity)) add(source);
   return hasher.digest();
 }
 
@@ -230,7 +230,7 @@ std::vector<CasterBox> CasterHistory::find_changed(Entity light, const CasterHis
   const std::span<const Entity> left_before = before.withheld_.of(light), left_now = withheld_.of(light);
   std::vector<CasterBox> boxes;
   for (std::size_t i = 0; i < changed_.size(); ++i)
-    if (!is_withheld(i < gone_ ? left_before : left_now, changed_casters_[i])) boxes.push_back(changed_[i]);
+    if (!holds_caster(i < gone_ ? left_before : left_now, changed_casters_[i])) boxes.push_back(changed_[i]);
   // A caster that becomes withheld was in the map before; one that is no longer withheld is in it now.
   append_boxes(left_now, left_before, before.states_, before.sources_, boxes);
   append_boxes(left_before, left_now, states_, sources_, boxes);

@@ -34,8 +34,9 @@ struct CasterState {
   Entity entity;
 };
 
-/// Whether the caster is in `withheld`, a result of WithheldCasters::of().
-[[nodiscard]] bool is_withheld(std::span<const Entity> withheld, Entity caster);
+/// Whether the caster is in the list, which is ordered by Entity::index: a result of WithheldCasters::of(), or
+/// ExtraMap::casters.
+[[nodiscard]] bool holds_caster(std::span<const Entity> list, Entity caster);
 
 /// A hash of each caster's pose, in the order of draws.casters. 0: the GPU does not move its vertices, or its pose is
 /// unknown.

@@ -64,7 +64,7 @@ std::uint64_t hash_of_resting(const CasterHistory& history, const ShadowFace& fa
   const std::span<const Entity> withheld = history.withheld(face.light);
   Hasher hasher;
   for (std::size_t i = 0; i < states.size(); ++i)
-    if (history.rests(i) && may_see(volume, states[i].box) && !is_withheld(withheld, states[i].entity))
+    if (history.rests(i) && may_see(volume, states[i].box) && !holds_caster(withheld, states[i].entity))
       hasher.value(states[i].hash);
   return hasher.digest();
 }
@@ -119,7 +119,7 @@ void find_draws(const CasterHistory& history, const MapInputs& inputs, DrawnFace
   for (std::size_t i = 0; i < inputs.sources.size(); ++i) {
     const std::size_t state = casters.size() + i;
     if (draws(state) && may_see(volume, history.states()[state].box) &&
-        !is_withheld(withheld, inputs.sources[i]->entity))
+        !holds_caster(withheld, inputs.sources[i]->entity))
       region.sources.push_back(inputs.sources[i]);
   }
 }

@@ -213,7 +213,7 @@ std::vector<FaceDraw> face_draws(const ShadowFace& face, const FaceVolume& volum
                                  const CasterForm& form, std::span<const Entity> withheld) {
   std::vector<FaceDraw> draws;
   for (const Caster& caster : casters)
-    if (caster.primitive->index_count > 0 && may_see(volume, caster) && !is_withheld(withheld, caster.entity))
+    if (caster.primitive->index_count > 0 && may_see(volume, caster) && !holds_caster(withheld, caster.entity))
       add_draws(face, volume, caster, form, draws);
   std::stable_partition(draws.begin(), draws.end(), [](const FaceDraw& draw) { return !is_cut_out(*draw.caster); });
   return draws;

@@ -110,7 +110,7 @@ KeptSizes sizes_of(const FinalLists& lists, std::uint64_t entries, std::uint64_t
 void set_list_constants(const ShadowKnobs& knobs, FinalLists& lists) {
   const bool split = lists.visibilities[1].resource != lists.visibilities[0].resource;
   lists.visibility_bits = visibility_bits_of(knobs);
-  lists.constants = list_constants(lists.visibility_bits, split, knobs.reuse);
+  lists.constants = list_constants(lists.visibility_bits, split, knobs.reuse != ShadowReuse::off);
   const ShadowKnobs unlimited;
   if (knobs.slot_limit != unlimited.slot_limit || knobs.pair_limit != unlimited.pair_limit)
     lists.always_complete = false;
@@ -126,7 +126,8 @@ FinalListFeedback final_list_feedback(const shaders::ShadowListCounters& counter
                                       const FinalListFeedback* last) {
   FinalListFeedback feedback;
   // Tile lights that were kept need pairs again as soon as they change.
-  feedback.pairs_asked = std::max(counters.pairs, last == nullptr || counters.kept == 0 ? 0 : last->pairs_asked);
+  feedback.pairs_asked =
+      std::max(counters.pairs, last == nullptr || counters.kept + counters.reprojected == 0 ? 0 : last->pairs_asked);
   // Pairs that did not fit took no slots: assume that they need as many slots per pair as the pairs that fit.
   const bool pairs_full = counters.pairs > note.pair_capacity;
   const std::uint64_t share =
@@ -176,6 +177,7 @@ void count_final_lists(const shaders::ShadowListCounters& c, const FinalListNote
   sink.count("shadows.tile_lights_lit", c.lit_at_once);
   sink.count("shadows.tile_lights_unlit", c.unlit_at_once);
   sink.count("shadows.tile_lights_kept", c.kept);
+  sink.count("shadows.tile_lights_reprojected", c.reprojected);
   sink.count("shadows.tile_lights_filtered", c.pairs);
   sink.count("shadows.tile_lights_filtered_lit", c.lit_by_filter);
   sink.count("shadows.tile_lights_filtered_unlit", c.unlit_by_filter);

@@ -11,18 +11,23 @@
 #include "modules/lights/outputs.h"
 #include "modules/shadows/final_lists/buffers.h"
 #include "modules/shadows/maps/planes.h"
+#include "shaders/shadows/final_lists/reproject_shared.h"
 #include "shaders/shadows/shaders.h"
 
 namespace gloam {
 namespace {
 
-/// reuse: the frame keeps visibilities of the last one.
-ComputeProgram list_program(const ShadowsOutputs& shadows, std::uint32_t visibility_bits, bool reuse) {
-  if (!reuse) return {shaders::shadows::list_tile_lights_comp, shadows.constants};
-  ComputeProgram program{shaders::shadows::list_tile_lights_kept_comp, shadows.constants};
+/// reuse: what the frame keeps of the last one.
+ComputeProgram list_program(const ShadowsOutputs& shadows, std::uint32_t visibility_bits, ShadowReuse reuse) {
+  using namespace shaders::shadows;
+  if (reuse == ShadowReuse::off) return {list_tile_lights_comp, shadows.constants};
+  ComputeProgram program{reuse == ShadowReuse::exact ? list_tile_lights_kept_comp : list_tile_lights_reprojected_comp,
+                         shadows.constants};
   program.constants.set("kVisibilityBits", visibility_bits);
   return program;
 }
+
+ComputeProgram sources_program() { return {shaders::shadows::find_sources_comp}; }
 
 ComputeProgram finish_program(bool reuse) {
   return {reuse ? shaders::shadows::finish_kept_comp : shaders::shadows::finish_comp};
@@ -90,12 +95,18 @@ void add_start_pass(FrameBuilder& frame, FinalListBuffers& buffers) {
 
 /// What the frame keeps of the last one.
 struct Kept {
-  bool keys = false;                        ///< tiles get keys; else the other members are empty
+  ShadowReuse reuse = ShadowReuse::off;     ///< off: tiles get no keys, and the other members are empty
   KeptBuffers last;                         ///< of the last frame
   std::vector<std::uint32_t> last_indices;  ///< last_indices()
+  // With ShadowReuse::reprojected:
+  shaders::ReprojectBlock reproject{};
+  HistoryBuffer last_pixels, pixels;  ///< of the last frame and of this one
+  BufferRef sources;                  ///< of find_sources.comp.glsl
+  std::uint32_t exact_frames = 4;     ///< ViewReuse::exact_frames
 };
 
-/// Binds what list_tile_lights_kept.comp.glsl has more than list_tile_lights.comp.glsl.
+/// Binds what list_tile_lights_kept.comp.glsl and list_tile_lights_reprojected.comp.glsl have more than
+/// list_tile_lights.comp.glsl.
 void bind_kept(ComputePass& pass, const Kept& kept, FinalListBuffers& buffers) {
   pass.read("last_tiles", kept.last.tiles);
   pass.read("last_entries", kept.last.entries);
@@ -105,12 +116,30 @@ void bind_kept(ComputePass& pass, const Kept& kept, FinalListBuffers& buffers) {
   pass.items<std::uint32_t>("reserved_tiles", buffers.reserved_tiles);
   buffers.lists.kept_tiles = pass.write("kept_tiles", buffers.lists.kept_tiles);
   write_visibilities(pass, buffers.lists);
+  if (kept.reuse != ShadowReuse::reprojected) return;
+  pass.items<shaders::ReprojectBlock>("reproject", std::span(&kept.reproject, 1));
+  pass.read("sources", kept.sources);
+}
+
+/// Finds for each pixel where the last frame saw its surface.
+void add_sources_pass(FrameBuilder& frame, Kept& kept) {
+  ComputePass pass(frame, "find_shadow_sources", sources_program());
+  read_geometry(pass, frame.get<GeometryOutputs>());
+  pass.items<shaders::ReprojectBlock>("reproject", std::span(&kept.reproject, 1));
+  pass.read("last_pixels", kept.last_pixels.buffer);
+  static_cast<void>(pass.write("kept_pixels", kept.pixels.buffer));  // the next frame reads it
+  gpu::BufferDesc desc;
+  desc.name = "shadow_sources";
+  desc.module = "shadows";
+  desc.size = frame.graph().desc(kept.pixels.buffer).size / 2;
+  kept.sources = pass.write("sources", frame.graph().create_buffer(desc));
+  pass.dispatch_over(frame.view().width, frame.view().height);
 }
 
 void add_list_pass(FrameBuilder& frame, const ShadowsOutputs& shadows, const Kept& kept, FinalListBuffers& buffers) {
   FinalLists& lists = buffers.lists;
-  ComputePass pass(frame, "list_tile_lights", list_program(shadows, lists.visibility_bits, kept.keys));
-  if (kept.keys) bind_kept(pass, kept, buffers);
+  ComputePass pass(frame, "list_tile_lights", list_program(shadows, lists.visibility_bits, kept.reuse));
+  if (kept.reuse != ShadowReuse::off) bind_kept(pass, kept, buffers);
   read_geometry(pass, frame.get<GeometryOutputs>());
   read_light_lists(pass, frame.get<LightsOutputs>());
   read_shadows(pass, shadows);
@@ -195,26 +224,62 @@ void add_finish_pass(FrameBuilder& frame, bool keys, FinalLists& lists) {
 }
 
 /// Appends the pipelines of frames that make keys.
-void list_reuse_pipelines(std::uint32_t visibility_bits, const ShadowsOutputs& shadows, PipelineList& list) {
-  list.push_back(pipeline_desc(list_program(shadows, visibility_bits, true), "shadows"));
+void list_reuse_pipelines(std::uint32_t visibility_bits, ShadowReuse reuse, const ShadowsOutputs& shadows,
+                          PipelineList& list) {
+  list.push_back(pipeline_desc(list_program(shadows, visibility_bits, reuse), "shadows"));
   list.push_back(pipeline_desc(finish_program(true), "shadows"));
+  if (reuse == ShadowReuse::reprojected) list.push_back(pipeline_desc(sources_program(), "shadows"));
+}
+
+/// Depth and face normal of the view's pixels (shaders/shadows/final_lists/find_sources.comp.glsl). instance: as in
+/// ViewReuse.
+Result<HistoryBuffer> kept_pixels(FrameBuilder& frame, std::uint64_t pixels, std::uint64_t instance) {
+  gpu::BufferDesc desc;
+  desc.name = "shadow_kept_pixels";
+  desc.module = "shadows";
+  desc.size = pixels * sizeof(uvec2);
+  desc.usage = gpu::BufferUsage::storage;
+  return frame.history_buffer(desc, {.reset = {.most_missed = 0}, .instance = instance});
+}
+
+/// Sets how the frame reprojects. pixels: of all tiles. last_indices must be set.
+void plan_reprojection(FrameBuilder& frame, std::uint64_t pixels, const ListInputs& inputs, const ViewReuse& reuse,
+                       Kept& kept) {
+  const auto last = kept_pixels(frame, pixels, reuse.instance), now = kept_pixels(frame, pixels, 1 - reuse.instance);
+  if (!frame.check(last) || !frame.check(now)) return;
+  kept.last_pixels = *last;
+  kept.pixels = *now;
+  shaders::ReprojectBlock& block = kept.reproject;
+  kept.exact_frames = reprojects_any(kept.last_indices) ? 0 : std::min(reuse.exact_frames + 1, 4u);
+  block.last = reuse.view;
+  block.moved = vec3(frame.view().position - reuse.position);
+  // Four frames make each tile anew. After that all is exact, and frames may repeat each other.
+  block.turned_on = kept.exact_frames < 4 && kept.last_pixels.filled() ? 1 : 0;
+  block.phase = block.turned_on != 0 ? (reuse.turn + 1) % 4 : 0;
+  block.sphere_count = static_cast<std::uint32_t>(inputs.moved.size());
+  std::ranges::copy(inputs.moved, block.spheres);
 }
 
 /// Decides what the frame keeps of the last one: nothing, if what all tiles share has changed, or each light.
-Kept plan_kept(FrameBuilder& frame, const ShadowsOutputs& shadows, const FinalListBuffers& buffers,
-               const ListInputs& inputs, const ViewReuse& reuse) {
+Kept plan_kept(FrameBuilder& frame, const ShadowKnobs& knobs, const ShadowsOutputs& shadows,
+               const FinalListBuffers& buffers, const ListInputs& inputs, const ViewReuse& reuse) {
   Kept kept;
   std::vector<std::uint32_t> indices = last_indices(reuse.inputs, inputs);
-  if (!keeps_any(inputs, indices)) return kept;
+  const bool reprojects = knobs.reuse == ShadowReuse::reprojected;
+  if (!reprojects && !keeps_any(inputs, indices)) return kept;
   const FrameServices& services = frame.services();
   PipelineList list;
-  list_reuse_pipelines(buffers.lists.visibility_bits, shadows, list);
+  list_reuse_pipelines(buffers.lists.visibility_bits, knobs.reuse, shadows, list);
   if (!services.wait_for_pipelines && !services.pipelines.request(list, services.log)) return kept;
   kept.last = use_kept_buffers(frame, buffers.sizes, reuse.instance);
   if (!frame.status().ok()) return kept;
-  kept.keys = true;
+  kept.reuse = knobs.reuse;
   if (!reuse.has_keys || !kept.last.filled) std::ranges::fill(indices, GLOAM_LIGHT_CHANGED);
   kept.last_indices = std::move(indices);
+  if (reprojects) {
+    const gpu::ImageDesc& tiles = frame.graph().desc(buffers.lists.tiles);
+    plan_reprojection(frame, std::uint64_t{tiles.width} * tiles.height * GLOAM_SLOT_PIXELS, inputs, reuse, kept);
+  }
   return kept;
 }
 
@@ -229,13 +294,13 @@ void list_generate_pipelines(const ShadowKnobs& knobs, const ShadowsOutputs& sha
                              const gpu::DeviceInfo& device, PipelineList& list) {
   const auto add = [&](const ComputeProgram& program) { list.push_back(pipeline_desc(program, "shadows")); };
   const std::uint32_t bits = visibility_bits_of(knobs);
-  add(list_program(shadows, bits, false));
+  add(list_program(shadows, bits, ShadowReuse::off));
   for (const bool directional : {false, true})
     if (has_lights(lights, directional)) add(classify_program(shadows, directional));
   add(finish_program(false));
   for (const std::uint32_t kind : kinds_of(lights)) add(generate_program(shadows, bits, kind, device));
   if (knobs.classify) list_shadow_plane_pipelines(list);
-  if (knobs.reuse) list_reuse_pipelines(bits, shadows, list);
+  if (knobs.reuse != ShadowReuse::off) list_reuse_pipelines(bits, knobs.reuse, shadows, list);
 }
 
 bool generate_pipelines_ready(const FrameBuilder& frame, const ShadowKnobs& knobs, const ShadowsOutputs& shadows) {
@@ -243,7 +308,7 @@ bool generate_pipelines_ready(const FrameBuilder& frame, const ShadowKnobs& knob
   if (services.wait_for_pipelines) return true;
   PipelineList list;
   ShadowKnobs without_reuse = knobs;
-  without_reuse.reuse = false;
+  without_reuse.reuse = ShadowReuse::off;
   list_generate_pipelines(without_reuse, shadows, *frame.find<LightsOutputs>(), services.device.info(), list);
   return services.pipelines.request(list, services.log);
 }
@@ -251,21 +316,24 @@ bool generate_pipelines_ready(const FrameBuilder& frame, const ShadowKnobs& knob
 std::optional<FinalLists> add_generate_passes(FrameBuilder& frame, const ShadowKnobs& knobs, ImageRef planes,
                                               const ViewMapState& maps, const ShadowsOutputs& shadows,
                                               ViewReuse& reuse) {
-  FinalListBuffers buffers = make_final_list_buffers(frame, knobs, *shadows.row_values, knobs.reuse ? &reuse : nullptr);
+  const bool reuses = knobs.reuse != ShadowReuse::off;
+  FinalListBuffers buffers = make_final_list_buffers(frame, knobs, *shadows.row_values, reuses ? &reuse : nullptr);
   if (!frame.status().ok()) return std::nullopt;
   Kept kept;
-  if (knobs.reuse) {
+  if (reuses) {
     ListInputs inputs = list_inputs(frame, knobs, shadows, maps, buffers.sizes);
-    kept = plan_kept(frame, shadows, buffers, inputs, reuse);
-    note_reuse(frame, maps, kept.keys, std::move(inputs), reuse);
-    buffers.lists.has_anew = kept.keys;
+    kept = plan_kept(frame, knobs, shadows, buffers, inputs, reuse);
+    const bool has_keys = kept.reuse != ShadowReuse::off;
+    note_reuse(frame, maps, {has_keys, kept.reproject.phase, kept.exact_frames}, std::move(inputs), reuse);
+    buffers.lists.has_anew = has_keys;
   }
   add_start_pass(frame, buffers);
+  if (kept.reuse == ShadowReuse::reprojected) add_sources_pass(frame, kept);
   add_list_pass(frame, shadows, kept, buffers);
   add_classify_pass(frame, shadows, planes, buffers);
   if (!frame.status().ok()) return std::nullopt;  // nothing has written the pairs that the next pass reads
   add_pairs_pass(frame, shadows, buffers);
-  add_finish_pass(frame, kept.keys, buffers.lists);
+  add_finish_pass(frame, kept.reuse != ShadowReuse::off, buffers.lists);
   frame.put(buffers.note);
   return std::move(buffers.lists);
 }

@@ -12,6 +12,7 @@
 #include "engine/scene/resources.h"
 #include "modules/lights/outputs.h"
 #include "modules/shadows/filter/cookies.h"
+#include "modules/shadows/final_lists/moved_casters.h"
 #include "shaders/shadows/final_lists_shared.h"
 
 namespace gloam {
@@ -19,26 +20,35 @@ namespace {
 
 constexpr std::uint64_t kFramesKept = 120;
 
-/// Hash of all that visibilities depend on but the pixels and the lights.
-std::uint64_t shared_hash(const FrameBuilder& frame, const ShadowKnobs& knobs, const ShadowsOutputs& shadows,
+/// Hash of what visibilities depend on but the pixels, the lights and the camera.
+std::uint64_t steady_hash(const FrameBuilder& frame, const ShadowKnobs& knobs, const ShadowsOutputs& shadows,
                           const KeptSizes& sizes) {
-  shaders::ViewConstants view = view_constants(frame.view());
-  view.visualizer = 0;
-  view.normal_variance = view.light_scale = 0.0f;
   const ViewFaces& faces = frame.world().view_resource<ViewFaces>(frame.view().id);
   Hasher hasher;
-  hasher.bytes_of(view).bytes_of(sizes);
+  hasher.bytes_of(sizes).value(frame.view().width).value(frame.view().height);
   hasher.value(faces.owner.value).value(faces.shared != nullptr);  // they name the atlas
   for (const gpu::SpecConstant& constant : shadows.constants)
     hasher.text(constant.name).value(constant.value.type).value(constant.value.bits);
   hasher.value(knobs.classify).value(knobs.slot_limit).value(knobs.pair_limit);
   const shaders::ShadowBlock& block = shadows.block_values;
-  hasher.bytes_of(vec4(block.atlas_size, block.bias_m, block.depth_quantum, block.relative_quantum));
+  hasher.bytes_of(vec3(block.bias_m, block.depth_quantum, block.relative_quantum));
   hasher.value(frame.world().resource<Cookies>().version);
+  hasher.bytes_of(knobs.min_contribution);
+  return hasher.digest();
+}
+
+/// Hash of all that visibilities depend on but the pixels and the lights.
+std::uint64_t shared_hash(const FrameBuilder& frame, const ShadowKnobs& knobs, const ShadowsOutputs& shadows,
+                          std::uint64_t steady) {
+  shaders::ViewConstants view = view_constants(frame.view());
+  view.visualizer = 0;
+  view.normal_variance = view.light_scale = 0.0f;
+  Hasher hasher;
+  hasher.value(steady).bytes_of(view).bytes_of(shadows.block_values.atlas_size);
   // Which lights of a tile are dim depends on the brightness of all, and on white.
   if (knobs.min_contribution > 0.0f) {
     const float white = std::exp2(frame.world().resource<SceneEnvironment>().exposure_ev100);
-    hasher.bytes_of(vec3(knobs.min_contribution, white, frame.view().light_scale));
+    hasher.bytes_of(vec2(white, frame.view().light_scale));
     hasher.value(local_lights_hash(frame.world().view_resource<VisibleLights>(frame.view().id)));
     for (const shaders::ShadowRow& row : *shadows.row_values) hasher.bytes_of(row);
   }
@@ -88,7 +98,8 @@ void set_map_versions(const MapVersions& versions, std::vector<LightInputs>& lig
   }
 }
 
-void add_indices(std::span<const LightInputs> last, std::span<const LightInputs> now,
+/// exact: all that the lights share has not changed. steady: but for the camera.
+void add_indices(std::span<const LightInputs> last, std::span<const LightInputs> now, bool exact, bool steady,
                  std::span<std::uint32_t> indices) {
   std::unordered_map<Entity, std::uint32_t> places;
   for (std::uint32_t i = 0; i < last.size(); ++i) places.emplace(last[i].light, i);
@@ -96,8 +107,14 @@ void add_indices(std::span<const LightInputs> last, std::span<const LightInputs>
     const auto found = places.find(now[i].light);
     if (found == places.end()) continue;
     const LightInputs& before = last[found->second];
-    if (before.hash != now[i].hash || before.maps != now[i].maps) continue;
-    indices[i] = found->second | (before.composed == now[i].composed ? 0u : GLOAM_LIGHT_RECOMPOSED);
+    const std::uint32_t recomposed = before.composed == now[i].composed ? 0u : GLOAM_LIGHT_RECOMPOSED;
+    if (exact && before.hash == now[i].hash && before.maps == now[i].maps) {
+      indices[i] = found->second | recomposed;
+    } else if (steady && before.steady == now[i].steady && now[i].casters != CastersMoved::unknown) {
+      const bool moved = now[i].casters == CastersMoved::some;
+      indices[i] =
+          found->second | recomposed | GLOAM_LIGHT_REPROJECTED | (moved ? GLOAM_LIGHT_CASTERS_MOVED : std::uint32_t{0});
+    }
   }
 }
 
@@ -105,11 +122,19 @@ void add_indices(std::span<const LightInputs> last, std::span<const LightInputs>
 
 std::vector<std::uint32_t> last_indices(const ListInputs& last, const ListInputs& now) {
   std::vector<std::uint32_t> indices(GLOAM_MAX_LOCAL_LIGHTS + GLOAM_MAX_DIRECTIONAL_LIGHTS, GLOAM_LIGHT_CHANGED);
-  if (last.shared != now.shared) return indices;
+  const bool exact = last.shared == now.shared;
+  const bool steady = last.steady == now.steady && now.caster_frame != 0 && last.caster_frame + 1 == now.caster_frame;
+  if (!exact && !steady) return indices;
   const std::span all(indices);
-  add_indices(last.local, now.local, all.first(GLOAM_MAX_LOCAL_LIGHTS));
-  add_indices(last.directional, now.directional, all.subspan(GLOAM_MAX_LOCAL_LIGHTS));
+  add_indices(last.local, now.local, exact, steady, all.first(GLOAM_MAX_LOCAL_LIGHTS));
+  add_indices(last.directional, now.directional, exact, steady, all.subspan(GLOAM_MAX_LOCAL_LIGHTS));
   return indices;
+}
+
+bool reprojects_any(std::span<const std::uint32_t> indices) {
+  return std::ranges::any_of(indices, [](std::uint32_t index) {
+    return index != GLOAM_LIGHT_CHANGED && (index & GLOAM_LIGHT_REPROJECTED) != 0;
+  });
 }
 
 bool keeps_any(const ListInputs& now, std::span<const std::uint32_t> indices) {
@@ -163,36 +188,47 @@ ListInputs list_inputs(const FrameBuilder& frame, const ShadowKnobs& knobs, cons
                        const ViewMapState& maps, const KeptSizes& sizes) {
   const auto& visible = frame.world().view_resource<VisibleLights>(frame.view().id);
   ListInputs inputs;
-  inputs.shared = shared_hash(frame, knobs, shadows, sizes);
+  inputs.steady = steady_hash(frame, knobs, shadows, sizes);
+  inputs.shared = shared_hash(frame, knobs, shadows, inputs.steady);
   const std::span<const Entity> local = local_lights(visible), directional = directional_lights(visible);
   for (std::size_t i = 0; i < local.size(); ++i) {
     Hasher hasher;
     hasher.bytes_of(local_light_reach(visible, i)).bytes_of((*shadows.row_values)[i]);
-    inputs.local.push_back({local[i], hasher.digest(), 0});
+    inputs.local.push_back({.light = local[i], .hash = hasher.digest()});
   }
   const std::vector<DirectionalLook> looks = directional_looks(visible);
   for (std::size_t i = 0; i < directional.size(); ++i) {
     Hasher hasher;
     hasher.bytes_of(vec4(looks[i].direction, looks[i].brightest > 0.0f ? 1.0f : 0.0f));
     hasher.bytes_of(shadows.block_values.directional[i]);
-    inputs.directional.push_back({directional[i], hasher.digest(), 0});
+    inputs.directional.push_back({.light = directional[i], .hash = hasher.digest()});
   }
   const auto versions = map_versions(keys_of(frame), maps, maps.frame.drawn, frame.services().device.frame_number());
   for (std::vector<LightInputs>* lights : {&inputs.local, &inputs.directional}) {
     set_map_versions(versions, *lights);
     set_composed(frame, maps.frame.history, *lights);
   }
+  if (knobs.reuse == ShadowReuse::reprojected) set_steady_inputs(frame, shadows, maps, inputs);
   return inputs;
 }
 
-void note_reuse(FrameBuilder& frame, const ViewMapState& maps, bool has_keys, ListInputs inputs, ViewReuse& reuse) {
+void note_reuse(FrameBuilder& frame, const ViewMapState& maps, const NotedFrame& noted, ListInputs inputs,
+                ViewReuse& reuse) {
   // Runs after the commit of the maps, which were declared before.
-  frame.on_commit([&maps, &reuse, inputs = std::move(inputs), faces = keys_of(frame), has_keys,
+  frame.on_commit([&maps, &reuse, inputs = std::move(inputs), faces = keys_of(frame), noted,
+                   view = view_constants(frame.view()), position = frame.view().position,
                    number = frame.services().device.frame_number()]() mutable {
     const MapVersions versions = map_versions(faces, maps, {}, 0);
     set_map_versions(versions, inputs.local);
     set_map_versions(versions, inputs.directional);
-    reuse = {std::move(inputs), has_keys, 1 - reuse.instance, number};
+    reuse = {.inputs = std::move(inputs),
+             .has_keys = noted.has_keys,
+             .instance = 1 - reuse.instance,
+             .last_use = number,
+             .view = view,
+             .position = position,
+             .turn = noted.turn,
+             .exact_frames = noted.exact_frames};
   });
 }
 

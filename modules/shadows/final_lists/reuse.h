@@ -3,7 +3,9 @@
 //
 // Reuse of visibilities (shadows.reuse=exact): a tile and a light of which nothing has changed since the last frame
 // keep that frame's visibilities, bit for bit. The CPU compares what all tiles share, and each light by itself; the GPU
-// compares what the tile's pixels give (shaders/shadows/final_lists/tile_key.glsl).
+// compares what the tile's pixels give (shaders/shadows/final_lists/tile_key.glsl). With shadows.reuse=reprojected,
+// what has not changed but for the camera may be taken from where the last frame saw it
+// (shaders/shadows/final_lists/reproject.glsl).
 #pragma once
 
 #include <cstdint>
@@ -19,8 +21,16 @@
 #include "modules/shadows/atlas/view_map_state.h"
 #include "modules/shadows/knobs.h"
 #include "modules/shadows/outputs.h"
+#include "shaders/render/view_shared.h"
 
 namespace gloam {
+
+/// Whether a caster has moved, since the last frame, that the light's maps may see.
+enum class CastersMoved : std::uint8_t {
+  none,
+  some,     ///< ListInputs::moved has them
+  unknown,  ///< it may be anywhere, or there are too many
+};
 
 /// What the visibilities of one light depend on besides the pixels, as hashes.
 struct LightInputs {
@@ -28,6 +38,9 @@ struct LightInputs {
   std::uint64_t hash = 0;      ///< where its light falls, and its row or cascades
   std::uint64_t maps = 0;      ///< versions of its maps; 0: it has none
   std::uint64_t composed = 0;  ///< what later modules change its visibilities by
+  // With shadows.reuse=reprojected:
+  std::uint64_t steady = 0;  ///< as `hash`, but without what follows the camera
+  CastersMoved casters = CastersMoved::unknown;
 };
 
 /// The same of a view.
@@ -35,14 +48,21 @@ struct ListInputs {
   std::uint64_t shared = 0;        ///< what all tiles and lights share: view, knobs, sizes of buffers
   std::vector<LightInputs> local;  ///< in the order of the view's local lights
   std::vector<LightInputs> directional;
+  // With shadows.reuse=reprojected:
+  std::uint64_t steady = 0;        ///< as `shared`, but without what follows the camera
+  std::uint64_t caster_frame = 0;  ///< CasterHistory::frame; casters have moved since the frame before it; 0: unknown
+  std::vector<vec4> moved;         ///< ReprojectBlock::spheres
 };
 
 /// For each light of `now` its index in `last`, or GLOAM_LIGHT_CHANGED if it is not there or has changed. Plus
 /// GLOAM_LIGHT_RECOMPOSED if only LightInputs::composed has changed. Local lights, and from GLOAM_MAX_LOCAL_LIGHTS on
-/// directional ones. All have changed if `shared` differs.
+/// directional ones. All have changed if `shared` differs. With GLOAM_LIGHT_REPROJECTED and GLOAM_LIGHT_CASTERS_MOVED
+/// if only the camera and casters have moved.
 [[nodiscard]] std::vector<std::uint32_t> last_indices(const ListInputs& last, const ListInputs& now);
 /// Whether a light with maps has not changed: without one, keys of tiles are of no use. indices: last_indices().
 [[nodiscard]] bool keeps_any(const ListInputs& now, std::span<const std::uint32_t> indices);
+/// Whether any light has GLOAM_LIGHT_REPROJECTED.
+[[nodiscard]] bool reprojects_any(std::span<const std::uint32_t> indices);
 
 /// Bytes of the buffers that outlive a frame.
 struct KeptSizes {
@@ -67,6 +87,11 @@ struct ViewReuse {
   bool has_keys = false;       ///< its tiles have keys
   std::uint64_t instance = 0;  ///< 0 or 1: HistoryUse::instance of its buffers
   std::uint64_t last_use = 0;  ///< Device::frame_number of the last frame that asked for it
+  // With shadows.reuse=reprojected:
+  shaders::ViewConstants view{};
+  dvec3 position = dvec3(0.0);     ///< of the camera, world
+  std::uint32_t turn = 0;          ///< ReprojectBlock::phase
+  std::uint32_t exact_frames = 4;  ///< frames since one in which a light had GLOAM_LIGHT_REPROJECTED, ≤ 4
 };
 
 /// ViewReuse of all views.
@@ -88,7 +113,14 @@ class ListReuse {
 [[nodiscard]] ListInputs list_inputs(const FrameBuilder& frame, const ShadowKnobs& knobs, const ShadowsOutputs& shadows,
                                      const ViewMapState& maps, const KeptSizes& sizes);
 
+/// What a frame takes over into ViewReuse besides its inputs.
+struct NotedFrame {
+  bool has_keys = false;
+  std::uint32_t turn = 0;
+  std::uint32_t exact_frames = 4;
+};
 /// When the frame is committed, notes that it has written the buffers of the other instance than `reuse.instance`.
-void note_reuse(FrameBuilder& frame, const ViewMapState& maps, bool has_keys, ListInputs inputs, ViewReuse& reuse);
+void note_reuse(FrameBuilder& frame, const ViewMapState& maps, const NotedFrame& noted, ListInputs inputs,
+                ViewReuse& reuse);
 
 }  // namespace gloam

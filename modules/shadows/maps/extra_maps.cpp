@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "modules/shadows/atlas/caster_states.h"
 #include "modules/shadows/atlas/mip_places.h"
 #include "modules/shadows/maps/recording.h"
 #include "modules/shadows/maps/tools.h"
@@ -21,12 +22,6 @@ struct ExtraWork : MapWork {
   std::vector<Caster> casters;  ///< draws point to these
 };
 
-bool lists(std::span<const Entity> entities, Entity entity) {
-  const auto at =
-      std::lower_bound(entities.begin(), entities.end(), entity, [](Entity a, Entity b) { return a.index < b.index; });
-  return at != entities.end() && *at == entity;
-}
-
 DrawnFace drawn_face(const ExtraMap& map, std::span<const Caster> casters, std::span<const CasterSource* const> sources,
                      const CasterForm& form) {
   DrawnFace drawn{map.face, {}, {}, {}};
@@ -36,7 +31,7 @@ DrawnFace drawn_face(const ExtraMap& map, std::span<const Caster> casters, std::
   for (const FaceDraw& draw : region.draws) region.matrices.push_back(clip_from_mesh(map.face, draw));
   const std::vector<CasterState> states = source_states(sources);
   for (std::size_t i = 0; i < sources.size(); ++i)
-    if (lists(map.casters, sources[i]->entity) && may_see(volume, states[i].box)) region.sources.push_back(sources[i]);
+    if (holds_caster(map.casters, sources[i]->entity) && may_see(volume, states[i].box)) region.sources.push_back(sources[i]);
   return drawn;
 }
 
@@ -44,7 +39,7 @@ DrawnFace drawn_face(const ExtraMap& map, std::span<const Caster> casters, std::
 std::vector<Caster> casters_of(const FrameBuilder& frame, std::span<const Entity> entities) {
   std::vector<Caster> found;
   for (const Caster& caster : frame.casters().casters)
-    if (lists(entities, caster.entity)) found.push_back(caster);
+    if (holds_caster(entities, caster.entity)) found.push_back(caster);
   return found;
 }
 

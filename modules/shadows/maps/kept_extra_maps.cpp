@@ -7,6 +7,7 @@
 
 #include "engine/core/hash.h"
 #include "engine/render/worlds/world_id.h"
+#include "modules/shadows/atlas/caster_states.h"
 #include "modules/shadows/atlas/drawn_faces.h"
 #include "modules/shadows/atlas/mip_places.h"
 #include "modules/shadows/maps/tools.h"
@@ -17,11 +18,6 @@ namespace {
 
 FaceKey key_of(const ExtraMap& map) { return {map.face.light, map.face.index, map.face.view}; }
 
-bool lists(std::span<const Entity> entities, Entity entity) {
-  const auto at = std::ranges::lower_bound(entities, entity.index, {}, &Entity::index);
-  return at != entities.end() && *at == entity;
-}
-
 /// The states of the casters and sources whose entity is in `entities`. poses: of all casters.
 std::vector<CasterState> states_of(FrameBuilder& frame, std::span<const Entity> entities,
                                    std::span<const std::uint64_t> poses) {
@@ -29,14 +25,14 @@ std::vector<CasterState> states_of(FrameBuilder& frame, std::span<const Entity> 
   std::vector<std::uint64_t> their_poses;
   const std::vector<Caster>& all = frame.casters().casters;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (!lists(entities, all[i].entity)) continue;
+    if (!holds_caster(entities, all[i].entity)) continue;
     casters.push_back(all[i]);
     their_poses.push_back(poses[i]);
   }
   std::vector<CasterState> states = caster_states(casters, their_poses, frame.services().executor);
   std::vector<const CasterSource*> sources;
   for (const CasterSource* source : frame.caster_sources())
-    if (lists(entities, source->entity)) sources.push_back(source);
+    if (holds_caster(entities, source->entity)) sources.push_back(source);
   for (CasterState& state : source_states(sources)) states.push_back(state);
   return states;
 }

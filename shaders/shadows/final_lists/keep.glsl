@@ -5,14 +5,16 @@
 
 #include "shaders/shadows/final_lists_shared.h"
 
-// Keeps visibilities of the frame before, for list_tile_lights.glsl. Without GLOAM_SHADOWS_KEEP nothing is kept.
+// Keeps visibilities of the frame before, for list_tile_lights.glsl. Without GLOAM_SHADOWS_KEEP nothing is kept. With
+// GLOAM_SHADOWS_REPROJECT they may also be reprojected.
 
 // A run of a tile's entries in the frame before.
 struct KeptRun {
   uint first;
-  uint count;     // GLOAM_LIGHT_CHANGED: nothing of it can be kept
-  uint next;      // where the search for the next light begins
-  uint composed;  // KeptTile::composed
+  uint count;        // GLOAM_LIGHT_CHANGED: nothing of it can be kept
+  uint next;         // where the search for the next light begins
+  uint composed;     // KeptTile::composed
+  uint reprojected;  // KeptTile::reprojected
 };
 
 struct LastTile {
@@ -20,7 +22,7 @@ struct LastTile {
 };
 
 LastTile no_last_tile() {
-  const KeptRun none = KeptRun(0u, GLOAM_LIGHT_CHANGED, 0u, 0u);
+  const KeptRun none = KeptRun(0u, GLOAM_LIGHT_CHANGED, 0u, 0u, 0u);
   return LastTile(none, none);
 }
 
@@ -48,11 +50,12 @@ layout(constant_id = 19) const uint kVisibilityBits = 8u;  // bits of a visibili
 
 // Notes a tile's key for the next frame; finish.glsl adds its list.
 void note_key(uint tile_index, uvec4 key) {
-  kept_tiles[tile_index] = KeptTile(key, GLOAM_NO_FINAL_LIST, GLOAM_NO_FINAL_LIST, 0u, 0u, 0u);
+  kept_tiles[tile_index] = KeptTile(key, GLOAM_NO_FINAL_LIST, GLOAM_NO_FINAL_LIST, 0u, 0u, 0u, 0u);
 }
 
-KeptRun run_of(uint first, uint count, uint composed) {
-  return KeptRun(first, count <= GLOAM_MOST_KEPT_LIGHTS ? count : GLOAM_LIGHT_CHANGED, 0u, composed);
+KeptRun run_of(uint first, uint count, KeptTile last) {
+  return KeptRun(first, count <= GLOAM_MOST_KEPT_LIGHTS ? count : GLOAM_LIGHT_CHANGED, 0u, last.composed,
+                 last.reprojected);
 }
 
 // What the tile can keep. Notes its key.
@@ -62,8 +65,8 @@ LastTile last_tile(uvec2 tile, uint tile_index) {
   note_key(tile_index, key);
   KeptTile last = last_tiles[tile_index];
   if (last.key != key || last.local_first == GLOAM_NO_FINAL_LIST) return no_last_tile();
-  return LastTile(run_of(last.directional_first, last.counts >> 16, last.composed),
-                  run_of(last.local_first, last.counts & 0xFFFFu, last.composed));
+  return LastTile(run_of(last.directional_first, last.counts >> 16, last),
+                  run_of(last.local_first, last.counts & 0xFFFFu, last));
 }
 
 uint last_index_of(bool directional, uint light) {
@@ -73,12 +76,13 @@ uint last_index_of(bool directional, uint light) {
 // The light's index in the frame before; GLOAM_LIGHT_CHANGED if its visibilities cannot be kept.
 uint last_index(KeptRun run, bool directional, uint light) {
   uint last = run.count == GLOAM_LIGHT_CHANGED ? GLOAM_LIGHT_CHANGED : last_index_of(directional, light);
-  if (last == GLOAM_LIGHT_CHANGED || (last & GLOAM_LIGHT_RECOMPOSED) == 0u) return last;
-  last &= ~GLOAM_LIGHT_RECOMPOSED;
-  return (run.composed & kept_light_bit(directional, last)) != 0u ? GLOAM_LIGHT_CHANGED : last;
+  if (last == GLOAM_LIGHT_CHANGED || (last & GLOAM_LIGHT_REPROJECTED) != 0u) return GLOAM_LIGHT_CHANGED;
+  uint bit = kept_light_bit(directional, last & GLOAM_LAST_INDEX);
+  bool recomposed = (last & GLOAM_LIGHT_RECOMPOSED) != 0u && (run.composed & bit) != 0u;
+  return recomposed || (run.reprojected & bit) != 0u ? GLOAM_LIGHT_CHANGED : last & GLOAM_LAST_INDEX;
 }
 
-uint composed_lights = 0u, anew_lights = 0u;  // of the thread's tile, as in KeptTile
+uint composed_lights = 0u, anew_lights = 0u, reprojected_lights = 0u;  // of the thread's tile, as in KeptTile
 
 // Notes in which of the sets the light is. last: as last_index().
 void note_light(KeptRun run, uint last, bool directional, uint light) {
@@ -92,6 +96,7 @@ void note_light(KeptRun run, uint last, bool directional, uint light) {
 void note_lights(uint tile_index) {
   kept_tiles[tile_index].composed = composed_lights;
   kept_tiles[tile_index].anew = anew_lights;
+  kept_tiles[tile_index].reprojected = reprojected_lights;
 }
 
 // The slot that the light had, GLOAM_ALL_LIT, or GLOAM_ALL_UNLIT: lists hold no lights that are unlit as a whole.
@@ -108,6 +113,14 @@ uint last_slot(inout KeptRun run, uint last) {
   return found;
 }
 
+void write_word(uint slot, uint i, uint word) {
+  const uint words = 2u * kVisibilityBits, per_buffer = GLOAM_BUFFER_WORDS / words;
+  if (slot < per_buffer)
+    visibilities_0[slot * words + i] = word;
+  else
+    visibilities_1[(slot - per_buffer) * words + i] = word;
+}
+
 // Takes a slot for the light that had the index `last`, with its visibilities of the frame before.
 uint keep_slot(inout KeptRun run, uint last, uint tile_index) {
   uint from = last_slot(run, last);
@@ -121,10 +134,7 @@ uint keep_slot(inout KeptRun run, uint last, uint tile_index) {
       word = last_visibilities_0[from * words + i];
     else
       word = last_visibilities_1[(from - per_buffer) * words + i];
-    if (to < per_buffer)
-      visibilities_0[to * words + i] = word;
-    else
-      visibilities_1[(to - per_buffer) * words + i] = word;
+    write_word(to, i, word);
   }
   return to;
 }
@@ -135,6 +145,29 @@ uint last_index(KeptRun run, bool directional, uint light) { return GLOAM_LIGHT_
 void note_light(KeptRun run, uint last, bool directional, uint light) {}
 void note_lights(uint tile_index) {}
 uint keep_slot(inout KeptRun run, uint last, uint tile_index) { return GLOAM_NO_ROOM; }
+#endif
+
+#ifdef GLOAM_SHADOWS_REPROJECT
+#include "shaders/shadows/final_lists/reproject.glsl"
+
+const bool kReprojects = true;
+
+bool comes(TileSource s, bool directional, uint light) {
+  return may_come(s, directional, light, last_index_of(directional, light));
+}
+
+uint come_slot(TileSource s, bool directional, uint light, uint tile_index) {
+  reprojected_lights |= kept_light_bit(directional, light);
+  return reprojected_slot(s, directional, last_index_of(directional, light), tile_index);
+}
+#else
+const bool kReprojects = false;
+struct TileSource {
+  bool found;
+};
+TileSource tile_source(uvec2 tile, uint tile_index, vec2 depths) { return TileSource(false); }
+bool comes(TileSource s, bool directional, uint light) { return false; }
+uint come_slot(TileSource s, bool directional, uint light, uint tile_index) { return GLOAM_NO_ROOM; }
 #endif
 
 #endif

@@ -18,7 +18,8 @@
 // is lit as a whole. Every other light becomes a candidate for classify.glsl, and the tile's pixels are grouped for it.
 //
 // With GLOAM_SHADOWS_KEEP, a light that has not changed since the last frame, in a tile that has not either, keeps its
-// visibilities (shadows.reuse) and is no candidate.
+// visibilities (shadows.reuse) and is no candidate. With GLOAM_SHADOWS_REPROJECT a light may take them from where the
+// tile's surfaces were seen in the last frame (reproject.glsl).
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -65,10 +66,21 @@ uint add_candidate(uint entry, uint tile_index, bool directional, uint light, bo
 }
 
 uint unshadowed;  // tile lights of this thread whose light casts no shadow
-uint kept;        // and those that keep their visibilities
+uint kept;        // those that keep their visibilities
+uint came;        // and those whose visibilities are reprojected
 
-void add_light(uint entry, uint tile_index, bool directional, uint light, bool two_groups, uint dim,
-               inout KeptRun run) {
+// Lights of the tile whose visibilities are reprojected: a bit each, directional ones first, then local ones in the
+// order of the list.
+uint coming[5];
+const uint kMostComing = 160u;
+
+bool is_coming(uint order) {
+  return kReprojects && order < kMostComing && (coming[min(order >> 5, 4u)] >> (order & 31u) & 1u) != 0u;
+}
+
+// order: as for `coming`.
+void add_light(uint entry, uint tile_index, bool directional, uint light, uint order, TileSource source,
+               bool two_groups, uint dim, inout KeptRun run) {
   uint slot = GLOAM_ALL_LIT, last = last_index(run, directional, light);
   note_light(run, last, directional, light);
   if (!casts(directional, light)) {
@@ -76,6 +88,9 @@ void add_light(uint entry, uint tile_index, bool directional, uint light, bool t
   } else if (last != GLOAM_LIGHT_CHANGED) {
     slot = keep_slot(run, last, tile_index);
     ++kept;
+  } else if (is_coming(order)) {
+    slot = come_slot(source, directional, light, tile_index);
+    ++came;
   } else {
     slot = add_candidate(entry, tile_index, directional, light, two_groups, dim);
   }
@@ -111,15 +126,21 @@ uint dim_flag(inout DimLights d, uint light) {
   return dim ? GLOAM_DIM_LIGHT : 0u;
 }
 
-// Whether a light of the tile is to be classified.
-bool has_new_light(LastTile last, uint suns, uint first, uint count) {
-  bool found = false;
-  for (uint i = 0u; i < suns; ++i)
-    found = found || (last_index(last.suns, true, i) == GLOAM_LIGHT_CHANGED && casts(true, i));
-  for (uint i = 0u; i < count; ++i) {
-    uint light = list_light(first, i);
-    found = found || (last_index(last.local, false, light) == GLOAM_LIGHT_CHANGED && casts(false, light));
-  }
+// Whether the light is to be classified. Notes whether it is coming.
+bool is_new(KeptRun run, TileSource source, bool directional, uint light, uint order) {
+  if (last_index(run, directional, light) != GLOAM_LIGHT_CHANGED || !casts(directional, light)) return false;
+  bool comes_from = order < kMostComing && comes(source, directional, light);
+  if (comes_from) coming[order >> 5] |= 1u << (order & 31u);
+  return !comes_from;
+}
+
+// Whether a light of the tile is to be classified. Sets `coming`.
+bool has_new_light(LastTile last, TileSource source, uint suns, uint first, uint count) {
+  coming = uint[](0u, 0u, 0u, 0u, 0u);
+  bool found = false;  // one light decides, unless each has its bit to be set
+  for (uint i = 0u; i < suns; ++i) found = (found && !kReprojects) || is_new(last.suns, source, true, i, i) || found;
+  for (uint i = 0u; i < count; ++i)
+    found = (found && !kReprojects) || is_new(last.local, source, false, list_light(first, i), suns + i) || found;
   return found;
 }
 
@@ -133,6 +154,7 @@ void main() {
     note_key(tile_index, uvec4(0u));
     return;
   }
+  TileSource source = tile_source(at, tile_index, bounds);
   uvec2 list = final_grid.has_early_lists != 0u ? texelFetch(tile_lists, ivec2(at), 0).xy : uvec2(0u);
   uint suns = final_grid.directional_count, count = list_count(list),
        shared_entries = final_grid.tiles.x * final_grid.tiles.y * suns;
@@ -146,7 +168,8 @@ void main() {
   LastTile last = last_tile(at, tile_index);
   bool two_groups = false, asks_dim = false;
   DimLights dim;
-  if (final_grid.classify != 0u && has_new_light(last, suns, list.x, count)) {
+  bool has_new = has_new_light(last, source, suns, list.x, count);
+  if (final_grid.classify != 0u && has_new) {
     TileGroups groups = make_tile_groups(view, depth_image, normal_image, base_color_image, emissive_image, at);
     two_groups = groups.has_two;
     tile_groups[2u * tile_index] = groups.one;
@@ -154,13 +177,13 @@ void main() {
     asks_dim = kDimLights != 0u;
     if (asks_dim) dim = dim_lights(groups, at);
   }
-  unshadowed = kept = 0u;
+  unshadowed = kept = came = 0u;
   uvec2 first = uvec2(tile_index * suns, shared_entries + list.x);
-  for (uint i = 0u; i < suns; ++i) add_light(first.x + i, tile_index, true, i, two_groups, 0u, last.suns);
+  for (uint i = 0u; i < suns; ++i) add_light(first.x + i, tile_index, true, i, i, source, two_groups, 0u, last.suns);
   for (uint i = 0u; i < count; ++i) {
     uint light = list_light(list.x, i), flag = 0u;
     if (asks_dim) flag = dim_flag(dim, light);
-    add_light(first.y + i, tile_index, false, light, two_groups, flag, last.local);
+    add_light(first.y + i, tile_index, false, light, suns + i, source, two_groups, flag, last.local);
   }
   if (asks_dim) atomicMax(counters.dim_light, floatBitsToUint(GLOAM_DIM_LIGHTS - dim.left / final_grid.dim_light));
   note_lights(tile_index);
@@ -169,6 +192,7 @@ void main() {
   if (suns + count != 0u) atomicAdd(counters.candidates, suns + count);
   if (unshadowed != 0u) atomicAdd(counters.unshadowed, unshadowed);
   if (kept != 0u) atomicAdd(counters.kept, kept);
+  if (came != 0u) atomicAdd(counters.reprojected, came);
 }
 
 #endif
