@@ -40,6 +40,9 @@ struct LightTarget {
 /// enlarges it.
 struct ViewTarget {
   gpu::ImageHandle image;
+  /// Nobody but this view writes `image`, and it is of the renderer's device: a frame that would repeat the last ones
+  /// leaves it as it is (scene.reuse). Not with an overlay.
+  bool keeps_image = false;
   gpu::Access after = gpu::Access::color_target;
   std::uint32_t width = 0;  ///< pixels of the picture, at least those of the view; 0: those of the view
   std::uint32_t height = 0;

@@ -187,8 +187,9 @@ void Player::choose_readiness() {
 
 WindowInput Player::poll() {
   play_script();
-  // Nothing changes in the window: it is only drawn again in case something has covered it.
-  if (refinement_.now() == Refinement::Next::kept && !active_) pictures_.window().wait(kKeptPictureS);
+  // Nothing changes in the window: it is only drawn again in case something has covered it. Measured runs do not wait.
+  const bool same = refinement_.now() == Refinement::Next::kept || (kept_ && options_.frames == 0);
+  if (same && !active_) pictures_.window().wait(kKeptPictureS);
   return pictures_.window().poll();
 }
 
@@ -201,6 +202,8 @@ void Player::play_script() {
   const ScriptEvent event = lasting_.script.next(exists, progress_.left == 0);
   if (event.kind == ScriptEvent::Kind::say) {
     if (const Status said = write_file(event.text, ""); !said.ok()) log_.warning(said.error().message);
+  } else if (event.kind == ScriptEvent::Kind::pace) {
+    script_step_s_ = event.x;
   } else if (event.kind == ScriptEvent::Kind::widget) {
     if (const auto middle = panel_.widget(event.text)) {
       pictures_.window().inject({.kind = ScriptEvent::Kind::move, .x = middle->x, .y = middle->y});
@@ -271,7 +274,7 @@ void Player::drop_view_without_its_knob() {
 void Player::count_step() {
   const std::uint64_t now = session_.zones.now_ns();
   frame_s_ = static_cast<double>(now - last_ns_) * 1e-9;
-  step_s_ = std::min(frame_s_, kLongestStep);
+  step_s_ = script_step_s_.value_or(std::min(frame_s_, kLongestStep));
   last_ns_ = now;
 }
 
@@ -295,11 +298,12 @@ void Player::adapt_to_time() {
   const double ms = on_software_ ? frame_s_ * 1e3 : report.gpu_ms;
   const bool own = unjudged_ == 0;
   if (unjudged_ > 0) --unjudged_;
-  const bool judged = wipe_.judges_frame() && own;
+  kept_ = report.kept;  // its time does not tell how long the next one takes that is drawn
+  const bool judged = wipe_.judges_frame() && own && !kept_;
   const dmat4 camera = shown_camera();
-  const bool moving = camera != last_camera_;
+  camera_moves_ = camera != last_camera_;
   last_camera_ = camera;
-  if (!options_.budget_ms && judged) scale_.add(ms, moving);
+  if (!options_.budget_ms && judged) scale_.add(ms, camera_moves_);
   for (const BudgetDecision& told : add_frame_times(renderer, {.ms = ms, .judged = judged, .view = views_}, report))
     panel_.tell(budget_text(told.decision, *renderer.budget(told.effect)), false);
 }
@@ -383,7 +387,8 @@ Result<bool> Player::draw() {
   if (!asked) return asked.error();
   bool shown = false;
   const auto draw_and_show = [&]() -> Status {
-    GLOAM_TRY(again ? show_again() : render(*asked));
+    if (!again) GLOAM_TRY(render(*asked));
+    if (again || asked->target.keeps_image) GLOAM_TRY(show_again());
     const auto presented = pictures_.present();
     if (!presented) return presented.error();
     shown = *presented;

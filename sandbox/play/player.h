@@ -102,6 +102,9 @@ class Player {
   void leave_at_signal();
   [[noreturn]] void leave(int code);
   [[nodiscard]] bool leaves_results() const;
+  /// Whether the scene is drawn in one frame of the device and shown in the next one (show_again): then the renderer
+  /// can keep a picture that has not changed, although the panel is drawn over it.
+  [[nodiscard]] bool shows_apart() const;
   [[nodiscard]] Result<ViewRequest> request();
   [[nodiscard]] Status show_again();
   [[nodiscard]] Status show_enlarged(FrameGraph& graph, ImageRef picture);
@@ -122,6 +125,8 @@ class Player {
   bool on_software_;
   ResolutionScale scale_;
   dmat4 last_camera_ = dmat4(1.0);  ///< shown_camera() of the last frame
+  bool camera_moves_ = false;       ///< it was another one than the frame before
+  bool kept_ = false;               ///< the renderer has kept the last frame (FrameReport::kept)
   double drawn_scale_ = 0.0;        ///< of the last frame; 0: none yet
   std::uint64_t views_ = 0;         ///< camera cuts so far, for the budget
   Upscaler upscaler_;
@@ -140,8 +145,9 @@ class Player {
   ShaderReload shaders_;
   std::vector<FrameSample> samples_;
   double time_s_ = 0.0;
-  double frame_s_ = 0.0;  ///< since the last frame
-  double step_s_ = 0.0;   ///< frame_s_, at most kLongestStep
+  double frame_s_ = 0.0;                 ///< since the last frame
+  double step_s_ = 0.0;                  ///< frame_s_, at most kLongestStep; or script_step_s_
+  std::optional<double> script_step_s_;  ///< ScriptEvent::Kind::pace
   std::uint64_t last_ns_ = 0;
   bool paused_ = false;
   bool step_once_ = false;

@@ -4,10 +4,18 @@
 // How a frame of the player gets into the window: whole, enlarged, kept, with the other side of a wipe.
 #include <array>
 
+#include "engine/render/kept_frames/kept_frames.h"
 #include "modules/lighting/outputs.h"
 #include "sandbox/play/player.h"
 
 namespace gloam {
+
+bool Player::shows_apart() const {
+  const KnobRegistry& knobs = session_.renderer->knobs();
+  if (knobs.value(kFrameReuse) == FrameReuse::off || knobs.value(kAntialiasing) == Antialiasing::taa) return false;
+  // A second frame on the GPU only pays if the first one is kept.
+  return !camera_moves_ && !wipe_.on() && !scene_moves(session_);
+}
 
 /// The next frame's view: drawn into the window's picture, or at a reduced size and then enlarged into it.
 Result<ViewRequest> Player::request() {
@@ -22,7 +30,8 @@ Result<ViewRequest> Player::request() {
   if (!whole) request.settings.aspect = static_cast<float>(settings_.width) / static_cast<float>(settings_.height);
   // Accumulated pictures are enlarged while they are accumulated, so they keep their history when the scale changes.
   const bool enlarged = session_.renderer->knobs().value(kAntialiasing) == Antialiasing::taa && may_enlarge(request);
-  if (!keeps && (whole || enlarged)) {
+  const bool apart = shows_apart();
+  if (!keeps && !apart && (whole || enlarged)) {
     upscaler_.release();
     if (!whole) {
       request.target.width = settings_.width;
@@ -37,6 +46,10 @@ Result<ViewRequest> Player::request() {
   if (!image.ok()) return image.error();
   request.target.image = *image;
   request.target.after = gpu::Access::fragment_read;
+  if (apart) {
+    request.target.keeps_image = true;
+    return request;
+  }
   request.target.overlay = [this](FrameGraph& graph, ImageRef& picture) { return show_enlarged(graph, picture); };
   return request;
 }

@@ -16,6 +16,7 @@ namespace gloam {
 struct ScriptEvent {
   enum class Kind : std::uint8_t {
     wait,      ///< x: frames
+    pace,      ///< x: seconds that each frame counts for the camera from now on, in place of its time on the wall
     key,       ///< text: a key that is pressed and released
     hold,      ///< text: a key that is pressed and stays down
     release,   ///< text: a key

@@ -314,6 +314,7 @@ void Window::inject(const ScriptEvent& event) {
       break;
     case Kind::wait:
     case Kind::widget:
+    case Kind::pace:
     case Kind::say:
     case Kind::until:
       break;

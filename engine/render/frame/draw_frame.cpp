@@ -143,8 +143,8 @@ bool may_keep(const Frame& frame, const RendererParts& parts) {
     return false;
   return std::ranges::all_of(frame.views, [&](const FrameView& own) {
     const ViewTarget& target = own.request.target;
-    return frame.knobs_of(own).value(kFrameReuse) == FrameReuse::exact && !own.request.geometry && !target.image &&
-           !target.acquire && !target.overlay && !target.light;
+    return frame.knobs_of(own).value(kFrameReuse) == FrameReuse::exact && !own.request.geometry &&
+           (!target.image || target.keeps_image) && !target.acquire && !target.overlay && !target.light;
   });
 }
 

@@ -12,6 +12,8 @@ void add_ecs_benches(BenchRegistry& registry);
 void add_frame_benches(BenchRegistry& registry);
 /// Time from frame to frame with one and with two frames in flight.
 void add_frame_wall_benches(BenchRegistry& registry);
+/// Frames at rest and of a moving camera: with what is kept and left out, over the same frames without.
+void add_frame_saving_benches(BenchRegistry& registry);
 /// GPU time per pixel: the largest over the smallest of eleven sizes.
 void add_frame_size_benches(BenchRegistry& registry);
 /// Captures of cubes in one frame against their views drawn one by one.

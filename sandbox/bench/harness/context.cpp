@@ -33,6 +33,15 @@ Result<std::unique_ptr<Session>> BenchContext::open_builtin(const std::string& s
   options.scene = scene;
   options.camera.clear();
   options.animation.clear();
+  return open(options, std::move(more_modules));
+}
+
+Result<std::unique_ptr<Session>> BenchContext::open_chosen(const std::string& scene) {
+  if (options_.scene_is_default || scene != options_.scene) return open_builtin(scene);
+  return open(options_, {});
+}
+
+Result<std::unique_ptr<Session>> BenchContext::open(const Options& options, ModuleList more_modules) {
   auto opened = open_session(options, log_, {}, std::move(more_modules));
   if (!opened) return opened.error();
   GLOAM_TRY(ensure_baked(**opened, options, log_));

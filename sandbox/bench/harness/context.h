@@ -26,6 +26,8 @@ class BenchContext {
   /// Opens a separate session of a scene ("builtin:NAME" or a file) with its first camera, independent of the user's
   /// choice. The caller owns it and may change it. more_modules: added after the program's own modules.
   [[nodiscard]] Result<std::unique_ptr<Session>> open_builtin(const std::string& scene, ModuleList more_modules = {});
+  /// The same with the user's camera and animation if `scene` is the scene that the user named.
+  [[nodiscard]] Result<std::unique_ptr<Session>> open_chosen(const std::string& scene);
   /// The scene that the user named, or `scene` if the user named none.
   [[nodiscard]] const std::string& scene_or(const std::string& scene) const;
   /// The shared session of scene_or(scene).
@@ -34,6 +36,8 @@ class BenchContext {
   [[nodiscard]] const gpu::DeviceInfo& device_info() const { return device_info_; }
 
  private:
+  [[nodiscard]] Result<std::unique_ptr<Session>> open(const Options& options, ModuleList more_modules);
+
   const Options& options_;
   LogSink& log_;
   std::map<std::string, std::unique_ptr<Session>> sessions_;  ///< by scene

@@ -64,6 +64,7 @@ BenchRegistry make_bench_registry() {
   add_transform_benches(registry);
   add_frame_benches(registry);
   add_frame_wall_benches(registry);
+  add_frame_saving_benches(registry);
   add_frame_size_benches(registry);
   add_governor_benches(registry);
   add_frame_capture_benches(registry);

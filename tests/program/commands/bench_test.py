@@ -73,6 +73,20 @@ class Bench(ProgramCase):
         for side in (256, 512, 1024, 2048):
             self.assertGreater(rows[f"shadows.exposure.map.{side}.shadowed"], 0.98, side)
 
+    def test_frames_with_savings_show_the_same_picture_and_take_less_time_at_rest(self):
+        self.require_device()
+        names = [f"frame.{motion}.scene" for motion in ("rest", "moving")]
+        self.expect(0, "bench", *names, "frame.rest.lanterns", "--scene", "builtin:shadows", "--size", "96x54", "--json", "rows.json")
+        told = self.read_json("rows.json")
+        self.assertIn("frame.rest.lanterns", [row["id"] for row in told["skipped"]], "--scene names another scene")
+        rows = {row["id"]: row for row in told["rows"]}
+        for name in names:
+            self.assertEqual(rows[f"{name}.differs"]["value"], 0, name)
+            self.assertGreater(rows[f"{name}.ms"]["value"], 0, name)
+        self.assertNotEqual(rows[f"{names[0]}.ms"]["hash"], rows[f"{names[1]}.ms"]["hash"], "a moving camera ends elsewhere")
+        # Nothing changes, so the GPU draws nothing. A frame that is drawn takes many times as long.
+        self.assertLess(rows[names[0]]["value"], 0.5)
+
     def test_a_failing_row_leaves_the_rows_before_it(self):
         run = self.expect(NO_DEVICE, "bench", "jobs.fork_join", "frame.scene", "--json", "rows.json",
                           env={"VK_ICD_FILENAMES": "/nonexistent", "VK_DRIVER_FILES": "/nonexistent"})
