@@ -64,6 +64,22 @@ class Play(WindowCase):
             most, _ = self.photograph(scene, 1).differences(self.rendered(scene, "192x108"))
             self.assertLessEqual(most, 1, f"{scene}: the shader and the hardware may round a code apart")
 
+    def test_a_picture_at_rest_is_kept_below_the_panel(self):
+        size = ("builtin:shadows", "--size", "160x90", "--scale", "0.5", "--dt", "0", "--validate")
+        run = self.start(*size, script="pace 0.05\nwait 12\nsay rested\nuntil rested.seen\nkey tab\nwait 3\nsay panel\nuntil panel.seen\n"
+                         "key tab\nwait 3\nsay without\nuntil without.seen\nhold w\nwait 6\nrelease w\nwait 3\nsay moved\nuntil moved.seen\n"
+                         "key 1\nwait 3\nsay back\nuntil back.seen\nclose\n")
+        names = ("rested", "panel", "without", "moved", "back")
+        rested, panel, without, moved, back = (run.photograph_at(name) for name in names)
+        self.assertEqual(run.end(), "")
+        self.assertGreater(rested.differences(panel)[1], 5.0, "the panel is drawn over the kept picture")
+        self.assertEqual(rested.rgb, without.rgb)
+        self.assertGreater(rested.differences(moved)[1], 1.0, "a moving camera is followed")
+        self.assertEqual(rested.rgb, back.rgb)
+        run = self.start(*size, "--frames", "24", "--stats", "s.json", env={"GLOAM_PANEL": "1"})
+        self.assertEqual(run.end(), "")
+        self.assertEqual(self.read_json("s.json")["frame_ms"]["gpu"]["median"], 0, "the GPU draws no scene at rest")
+
     # Hard case: program.interrupted
     def test_signals_end_it_with_the_codes_of_the_shell(self):
         for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):

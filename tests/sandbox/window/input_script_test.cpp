@@ -27,10 +27,13 @@ TEST(InputScriptTest, gives_an_event_a_frame_and_then_waits) {
 }
 
 TEST(InputScriptTest, reads_arguments) {
-  const auto script = InputScript::parse("move -3 4.5\ntype hello world\r\nscroll -2\ndrop a b.gltf", "tour");
+  const auto script =
+      InputScript::parse("move -3 4.5\ntype hello world\r\nscroll -2\ndrop a b.gltf\npace 0.05", "tour");
   ASSERT_TRUE(script.ok());
   const auto& events = script->events();
-  ASSERT_EQ(events.size(), 4u);
+  ASSERT_EQ(events.size(), 5u);
+  EXPECT_EQ(events[4].kind, Kind::pace);
+  EXPECT_EQ(events[4].x, 0.05);
   EXPECT_EQ(events[0].x, -3.0);
   EXPECT_EQ(events[0].y, 4.5);
   EXPECT_EQ(events[1].text, "hello world");

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/render/readback/capture.h"
 #include "engine/scene/assets.h"
 #include "tests/modules/shadows/support/reuse_twins.h"
 
@@ -100,6 +101,57 @@ TEST_F(WholeFrameReuse, frames_with_other_owners_or_knobs_are_drawn) {
     EXPECT_FALSE(kept());
   }
   rest("after overlays");
+}
+
+TEST_F(WholeFrameReuse, an_image_that_only_the_view_writes_is_kept) {
+  gpu::Device& device = *test::shared_device();
+  const auto make = [&] {
+    return test::value_of(
+        device.create_image({.name = "window",
+                             .module = "test",
+                             .format = gpu::Format::rgba8_unorm,
+                             .width = settings.width,
+                             .height = settings.height,
+                             .usage = gpu::ImageUsage::color_target | gpu::ImageUsage::transfer_source}));
+  };
+  std::array images = {make(), make()};
+  const auto draw_into_images = [&](const std::string& what, bool keeps) {
+    std::array<std::vector<std::byte>, 2> shown;
+    std::size_t number = 0;
+    each([&](Twin& twin) {
+      ViewRequest request{settings, {}};
+      request.target.image = images[number];
+      request.target.keeps_image = keeps;
+      request.target.after = gpu::Access::transfer_read;
+      ASSERT_TRUE(twin.renderer->render(*twin.world, std::span(&request, 1)).ok()) << what;
+      ASSERT_TRUE(twin.renderer->wait().ok());
+      shown[number] = test::value_of(read_image_now(device, images[number]));
+      ++number;
+    });
+    EXPECT_EQ(shown[0], shown[1]) << what;
+  };
+  const auto rest_in_images = [&](const std::string& after) {
+    for (int i = 0; i < 8; ++i) draw_into_images(after, true);
+    EXPECT_TRUE(kept()) << after;
+  };
+  rest_in_images("new scene");
+  move_thing(1, dvec3(0.1, 0.0, 0.0));
+  draw_into_images("caster", true);
+  EXPECT_FALSE(kept());
+  rest_in_images("caster");
+  device.destroy(images[0]);
+  images[0] = make();
+  draw_into_images("another image", true);
+  EXPECT_FALSE(kept()) << "nothing is in it yet";
+  rest_in_images("another image");
+  draw_both("the renderer's own picture");
+  EXPECT_FALSE(kept());
+  rest_in_images("after the renderer's own picture");
+  for (int i = 0; i < 7; ++i) {
+    draw_into_images("an image that others may write", false);
+    EXPECT_FALSE(kept());
+  }
+  for (const gpu::ImageHandle image : images) device.destroy(image);
 }
 
 TEST_F(WholeFrameReuse, what_goes_to_and_fro_is_drawn) {
