@@ -6,6 +6,7 @@
 
 #include "engine/render/kept_frames/kept_frames.h"
 #include "modules/lighting/outputs.h"
+#include "sandbox/play/display/reduced_knobs.h"
 #include "sandbox/play/player.h"
 
 namespace gloam {
@@ -27,6 +28,7 @@ Result<ViewRequest> Player::request() {
   drawn_scale_ = scale;
   const bool keeps = refinement_.now() == Refinement::Next::full;
   const bool whole = request.settings.width == settings_.width && request.settings.height == settings_.height;
+  if (on_software_) request.settings.knobs = knobs_at_scale(session_.renderer->knobs(), scale);
   if (!whole) request.settings.aspect = static_cast<float>(settings_.width) / static_cast<float>(settings_.height);
   // Accumulated pictures are enlarged while they are accumulated, so they keep their history when the scale changes.
   const bool enlarged = session_.renderer->knobs().value(kAntialiasing) == Antialiasing::taa && may_enlarge(request);

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "engine/core/zones.h"
 #include "engine/render/draws/levels.h"
@@ -220,13 +221,14 @@ Status draw(RendererParts& parts, World& world, std::span<const ViewRequest> req
   const Drawing mark(parts.drawing);
   parts.modules.begin_frame(world, parts.schedule);
   frame = std::make_unique<Frame>(world, parts.knobs.settle(parts.modules, parts.pipeline_wait()), redraw);
+  GLOAM_TRY(begin_views(*frame, requests, parts.modules.list()));
   // A view with knobs of its own may switch on what the others switch off.
-  if (std::ranges::all_of(requests, [](const ViewRequest& request) { return request.settings.knobs.empty(); }))
-    parts.modules.switch_off(world, frame->knobs, parts.schedule);
+  std::vector<const KnobRegistry*> knobs = {&frame->knobs};
+  for (const FrameView& own : frame->views) knobs.push_back(&frame->knobs_of(own));
+  parts.modules.switch_off(world, knobs, parts.schedule);
   parts.modules.leave(world);
   for (const Module* module : parts.modules.demanded()) module->prepare_world(world, frame->knobs);
   GLOAM_TRY(run_systems(*frame, std::nullopt, parts));
-  GLOAM_TRY(begin_views(*frame, requests, parts.modules.list()));
   warn_of_oversights(world, requests, parts.modules.list(), parts.worlds, parts.once, *parts.options.log);
   GLOAM_TRY(sync_assets(*frame, parts));
   return submit(*frame, requests, parts);

@@ -24,12 +24,16 @@ void ModuleSet::begin_frame(const World& world, Schedule& schedule) {
   }
 }
 
-void ModuleSet::switch_off(const World& world, const KnobRegistry& knobs, Schedule& schedule) {
+void ModuleSet::switch_off(const World& world, std::span<const KnobRegistry* const> knobs, Schedule& schedule) {
   for (std::size_t i = 0; i < modules_.size(); ++i) {
     Demand& demand = uses_[i].demand;
     if (!demand.needed) continue;
-    const std::string reason = modules_[i]->switched_off(world, knobs);
-    if (reason.empty()) continue;
+    std::string reason;
+    const bool off = std::ranges::all_of(knobs, [&](const KnobRegistry* values) {
+      reason = modules_[i]->switched_off(world, *values);
+      return !reason.empty();
+    });
+    if (!off) continue;
     demand = {false, demand.reason + ", but " + reason};
     schedule.set_enabled(modules_[i]->name(), false);
   }

@@ -46,8 +46,9 @@ class ModuleSet {
 
   /// Begins a frame: asks each module whether the world needs it, and enables its systems if so.
   void begin_frame(const World& world, Schedule& schedule);
-  /// After begin_frame: modules that are switched off with these knobs are not demanded.
-  void switch_off(const World& world, const KnobRegistry& knobs, Schedule& schedule);
+  /// After begin_frame: modules that are switched off with each of these knobs (those of the frame and of its views)
+  /// are not demanded.
+  void switch_off(const World& world, std::span<const KnobRegistry* const> knobs, Schedule& schedule);
   /// After switch_off: modules that are not demanded leave the world (Module::leave_world).
   void leave(World& world) const;
   /// The answer of the last begin_frame and switch_off.

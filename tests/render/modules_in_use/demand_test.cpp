@@ -410,6 +410,11 @@ TEST_F(DemandOfAll, a_knob_that_switches_a_module_off_is_no_demand) {
   own.settings.knobs = {{"shadows.mode", "deferred"}};
   frames(2, {request(), own});
   EXPECT_GT(seen("shadows").passes, 0u);
+  // Other knobs of its own switch nothing on.
+  own.settings.knobs = {{"shadows.texels_per_pixel", "2"}};
+  frames(2, {request(), own});
+  EXPECT_EQ(seen("shadows").passes, 0u);
+  EXPECT_FALSE(state_of("shadows").demanded);
 }
 
 TEST_F(DemandFrames, fog_without_density_is_no_fog) {
