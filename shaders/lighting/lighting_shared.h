@@ -54,17 +54,11 @@ struct MeteredExposure {
   uint frame;      // of the newest frame that metered
 };
 
-/// Constants for finding the edges of a picture along rows or columns (shaders/lighting/antialiasing/edge_bits.glsl).
-struct EdgeConstants {
-  ivec2 along;   // step from a pixel of a line to the next one
-  ivec2 across;  // step from a line to the next one
-  uint pixels;   // of a line
-  uint lines;    // one more than the picture has
-  uint words;    // of a line
-  uint first;    // word of the buffer at which the lines begin
-};
+// The largest rectangle that antialiasing blends at once; both divide 16.
+#define GLOAM_BLEND_COLUMNS 16
+#define GLOAM_BLEND_ROWS 8
 
-/// Constants for the weights of antialiasing, and for blending with them.
+/// Constants for edges and weights of antialiasing, and for blending with them.
 struct AntialiasingConstants {
   uvec2 size;        // pixels of the picture
   uint encode_srgb;  // 1: the target's format does not encode sRGB, so the shader does

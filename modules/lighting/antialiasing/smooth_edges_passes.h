@@ -18,11 +18,15 @@ struct AntialiasingWeights {
   /// Undefined for pixels without a bit in masks; they have no share.
   BufferRef weights;
   BufferRef masks;  ///< a bit for each pixel, (width + 31) / 32 words for a row
+  /// Rectangles of pixels that hold all pixels with a share, as blend.vert.glsl reads them, and the draw of them.
+  BufferRef rectangles;
+  BufferRef command;
 };
 /// shown: of kShownFormat and the view's size.
 [[nodiscard]] AntialiasingWeights add_antialiasing_weights(FrameBuilder& frame, ImageRef shown);
 
-/// Writes the antialiased picture to TargetOutput. dither: rounds it to 8 bits by the pattern of lighting.dither.
+/// Antialiases the picture in TargetOutput: draws the pixels again that their neighbours cover a share of. shown: the
+/// displayed light of the picture. dither: rounds it to 8 bits by the pattern of lighting.dither.
 void add_antialiasing_passes(FrameBuilder& frame, ImageRef shown, bool dither);
 
 }  // namespace gloam

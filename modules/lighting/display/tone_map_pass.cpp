@@ -61,25 +61,28 @@ void add_tone_map_passes(FrameBuilder& frame) {
   constants.metered = exposure.metered ? 1 : 0;
 
   const ImageRef table = add_tone_table_pass(frame);
-  const bool temporal = accumulates(frame), smooth = temporal || antialiases(frame),
+  const bool temporal = accumulates(frame), smooth = !temporal && antialiases(frame),
              dither = frame.knobs().value(kDither);
-  const std::uint32_t output = temporal ? 3u : (smooth ? 2u : (dither ? 1u : 0u));  // kOutput of tone_map.frag
-  ImageRef shown = smooth ? create_view_image(frame, "shown", kShownFormat) : target.color;
+  const std::uint32_t output = temporal ? 2u : (smooth ? 1u : 0u);  // kOutput of tone_map.frag
+  ImageRef shown = temporal || smooth ? create_view_image(frame, "shown", kShownFormat) : ImageRef{};
   {
     DrawPass pass(frame, "tone_map",
                   {shaders::lighting::tone_map_frag,
-                   {{"kTable", table ? 1u : 0u}, {"kOutput", output}, {"kScattered", scattered.light ? 1u : 0u}}});
+                   {{"kTable", table ? 1u : 0u},
+                    {"kOutput", output},
+                    {"kScattered", scattered.light ? 1u : 0u},
+                    {"kDither", dither ? 1u : 0u}}});
     pass.read("lit_image", frame.get<LitOutput>().color);
     pass.read("metered_exposure", exposure.buffer);
     pass.read("table_image", table, Sampling::linear);
     pass.read("scattered_image", scattered.light, Sampling::linear);
     pass.push(constants);
-    shown = pass.target(shown);
+    if (!temporal) target.color = pass.target(target.color);
+    if (shown) shown = pass.target(shown);
     pass.draw_triangle();
   }
   if (temporal) return add_temporal_passes(frame, shown, dither);
-  if (smooth) return add_antialiasing_passes(frame, shown, dither);
-  target.color = shown;
+  if (smooth) add_antialiasing_passes(frame, shown, dither);
 }
 
 }  // namespace gloam

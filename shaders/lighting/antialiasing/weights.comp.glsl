@@ -14,15 +14,16 @@
 // last end. An end without a step has none of the line: where the contour has a corner or turns back, or where the edge
 // fades. So straight edges, right angles, dots and the ends of thin lines stay.
 
-// A thread for 32 pixels of a row goes through those that may have an edge.
 layout(local_size_x = 32) in;
 
 layout(push_constant, scalar) uniform Weights { AntialiasingConstants c; };
 layout(set = 0, binding = 0, scalar) readonly buffer EdgeWords { uvec2 edge_words[]; };
-layout(set = 0, binding = 1, scalar) readonly buffer Candidates { uint candidates[]; };
 // Up, down, left and right of a pixel; only of pixels whose bit in masks is set.
-layout(set = 0, binding = 2, scalar) writeonly buffer PixelWeights { uint weights[]; };
-layout(set = 0, binding = 3, scalar) writeonly buffer Masks { uint masks[]; };
+layout(set = 0, binding = 1, scalar) writeonly buffer PixelWeights { uint weights[]; };
+layout(set = 0, binding = 2, scalar) writeonly buffer Masks { uint masks[]; };
+layout(set = 0, binding = 3, scalar) buffer BlendCommand { uvec4 blend_command; };  // x: number of vertices
+// That hold all pixels with a share: first pixel, and number of pixels along both axes; y in the upper 16 bits.
+layout(set = 0, binding = 4, scalar) writeonly buffer Rectangles { uvec2 rectangles[]; };
 
 const uint kReach = 32u;  // farthest end of an edge that is found, pixels
 
@@ -36,10 +37,12 @@ uint ones_above(uint word) { return ~word == 0u ? 32u : uint(findLSB(~word)); }
 
 uint plane(uvec2 planes, bool first) { return first ? planes.x : planes.y; }
 
+uvec2 word_at(bool rows, uint line, uint word) { return edge_words[first_word(rows, c.size, line) + word]; }
+
 // The edge at a position of a line, in both planes. position: −1 to the line's length.
 uvec2 edge_at(bool rows, uint line, uint position) {
   uint bit = position + 32u;
-  return (edge_words[first_word(rows, c.size, line) + bit / 32u] >> (bit % 32u)) & 1u;
+  return word_at(rows, line, bit / 32u) >> (bit % 32u) & 1u;
 }
 
 // The step at an end of an edge: 1 to the side of the pixels before the edge, 2 to the other side, 0 none. end: the
@@ -63,11 +66,11 @@ float area(uint k, uint length) {
 // The areas that the contour cuts off the pixel before an edge (x) and the pixel after it (y). rows: the edge lies
 // between rows.
 vec2 cut_areas(bool rows, uint line, uint position, bool before_is_brighter) {
-  uint at = first_word(rows, c.size, line) + position / 32u + 1u, bit = position % 32u;
-  uint own = plane(edge_words[at], before_is_brighter);
+  uint word = position / 32u + 1u, bit = position % 32u;
+  uint own = plane(word_at(rows, line, word), before_is_brighter);
   uint back = ones_below(own, bit), forth = ones_above(own >> bit) - 1u;
-  if (back == bit) back += ones_below(plane(edge_words[at - 1u], before_is_brighter), 32u);
-  if (bit + forth == 31u) forth += ones_above(plane(edge_words[at + 1u], before_is_brighter));
+  if (back == bit) back += ones_below(plane(word_at(rows, line, word - 1u), before_is_brighter), 32u);
+  if (bit + forth == 31u) forth += ones_above(plane(word_at(rows, line, word + 1u), before_is_brighter));
 
   uint begins = 0u, ends = 0u;
   if (back <= kReach) begins = step_at(rows, line, position - back, position - back - 1u, before_is_brighter, true);
@@ -80,39 +83,100 @@ vec2 cut_areas(bool rows, uint line, uint position, bool before_is_brighter) {
               (begins == 2u ? from_begin : 0.0) + (ends == 2u ? from_end : 0.0));
 }
 
-uint weights_of(uvec2 pixel) {
-  // Bit n: there is an edge in direction n, and bit n + 4: the pixel before it is the brighter one.
-  uint edges = 0u;
-  for (uint n = 0u; n < 4u; ++n) {
-    bool rows = n < 2u;
-    uvec2 planes = edge_at(rows, (rows ? pixel.y : pixel.x) + (n & 1u), rows ? pixel.x : pixel.y);
-    edges |= (planes.x | planes.y) << n | planes.x << (n + 4u);
+// The workgroup's block of 32 × 16 pixels: its data fit the 16 KiB that every device has. Threads take edges and pixels
+// from lists in turn, so all have work although rows have different numbers of edges.
+const uint kBlockRows = 16u;
+const uint kEdgeColumns = 1u << 11u, kEdgeBright = 1u << 12u;
+// Edges: position (5 bits), line (6 bits), flags: of a column's line, first plane. Then the pixels with a share: column
+// (5 bits), row.
+shared uint items[(kBlockRows + 1u) * 32u + 33u * kBlockRows];
+shared uint edge_count;
+shared float shares[kBlockRows * 32u][4];  // up, down, left, right of a pixel; only of those with a bit in has_share
+shared uint has_share[4][kBlockRows];      // a bit for each pixel of a row
+shared uint pixel_count;
+
+// Lists the edges on all four sides of the block's pixels. line: of the rows, then of the columns.
+void list_edges(uvec2 first, uint line) {
+  bool rows = line <= kBlockRows;
+  uint own = rows ? line : line - kBlockRows - 1u, at = rows ? first.y + own : first.x + own;
+  if (at > (rows ? c.size.y : c.size.x)) return;
+  uvec2 planes = word_at(rows, at, (rows ? first.x : first.y) / 32u + 1u);
+  if (!rows) planes = planes >> (first.y % 32u) & ((1u << kBlockRows) - 1u);
+  uint both = planes.x | planes.y, place = atomicAdd(edge_count, uint(bitCount(both)));
+  for (; both != 0u; both &= both - 1u) {
+    uint position = uint(findLSB(both));
+    items[place++] =
+        (rows ? 0u : kEdgeColumns) | ((planes.x >> position & 1u) != 0u ? kEdgeBright : 0u) | own << 5u | position;
   }
-  vec4 shares = vec4(0.0);
-  for (uint n = 0u; n < 4u && edges != 0u; ++n) {
-    if ((edges >> n & 1u) == 0u) continue;
-    bool rows = n < 2u;
-    vec2 areas = cut_areas(rows, (rows ? pixel.y : pixel.x) + (n & 1u), rows ? pixel.x : pixel.y,
-                           (edges >> (n + 4u) & 1u) != 0u);
-    shares[n] = (n & 1u) != 0u ? areas.x : areas.y;
-  }
+}
+
+void set_share(uvec2 pixel, uint side, float share) {
+  if (share <= 0.0) return;
+  shares[pixel.y * 32u + pixel.x][side] = share;
+  atomicOr(has_share[side][pixel.y], 1u << pixel.x);
+}
+
+void cut_pixels(uvec2 first, uint edge) {
+  bool rows = (edge & kEdgeColumns) == 0u;
+  uint line = edge >> 5u & 63u, position = edge & 31u;
+  vec2 areas = cut_areas(rows, line + (rows ? first.y : first.x), position + (rows ? first.x : first.y),
+                         (edge & kEdgeBright) != 0u);
+  uvec2 after = rows ? uvec2(position, line) : uvec2(line, position);
+  if (line > 0u) set_share(after - (rows ? uvec2(0u, 1u) : uvec2(1u, 0u)), rows ? 1u : 3u, areas.x);
+  if (line < (rows ? kBlockRows : 32u)) set_share(after, rows ? 0u : 2u, areas.y);
+}
+
+uint row_mask(uint row) { return has_share[0][row] | has_share[1][row] | has_share[2][row] | has_share[3][row]; }
+
+void list_pixels(uint row) {
+  uint mask = row_mask(row), place = atomicAdd(pixel_count, uint(bitCount(mask)));
+  for (; mask != 0u; mask &= mask - 1u) items[place++] = row << 5u | uint(findLSB(mask));
+}
+
+uint weights_of(uint place) {
+  vec4 s = vec4(0.0);
+  for (uint n = 0u; n < 4u; ++n)
+    if ((has_share[n][place >> 5u] >> (place & 31u) & 1u) != 0u) s[n] = shares[place][n];
   // The pixel is blended along one axis only, that of the greater share. The margin keeps rounding from deciding
   // between equal shares.
-  bool vertical = max(shares.x, shares.y) > max(shares.z, shares.w) + 1e-4;
-  return packUnorm4x8(vec4(vertical ? shares.xy : vec2(0.0), vertical ? vec2(0.0) : shares.zw));
+  bool vertical = max(s.x, s.y) > max(s.z, s.w) + 1e-4;
+  return packUnorm4x8(vec4(vertical ? s.xy : vec2(0.0), vertical ? vec2(0.0) : s.zw));
+}
+
+// Adds the rectangle of the pixels with a share in a part of the block.
+void add_rectangle(uvec2 first, uvec2 part) {
+  uint columns = 0u, rows = 0u, all = 0xFFFFFFFFu >> (32u - uint(GLOAM_BLEND_COLUMNS));
+  for (uint i = 0u; i < uint(GLOAM_BLEND_ROWS); ++i) {
+    uint mask = row_mask(part.y + i) >> part.x & all;
+    columns |= mask;
+    rows |= mask != 0u ? 1u << i : 0u;
+  }
+  if (rows == 0u) return;
+  uvec2 low = uvec2(findLSB(columns), findLSB(rows)), high = uvec2(findMSB(columns), findMSB(rows));
+  uvec2 corner = first + part + low, size = high - low + 1u;
+  rectangles[atomicAdd(blend_command.x, 6u) / 6u] = uvec2(corner.y << 16 | corner.x, size.y << 16 | size.x);
 }
 
 void main() {
-  uint row = gl_GlobalInvocationID.x, word = gl_GlobalInvocationID.y, words = line_words(c.size.x) - 2u;
-  if (row >= c.size.y || word >= words) return;
-  uint at = row * words + word;
-  uvec2 above = edge_words[first_word(true, c.size, row) + word + 1u];
-  uvec2 below = edge_words[first_word(true, c.size, row + 1u) + word + 1u];
-  uint left = candidates[at], next = word + 1u < words ? candidates[at + 1u] << 31u : 0u;
-  uint mask = above.x | above.y | below.x | below.y | left | left >> 1u | next;
-  masks[at] = mask;
-  for (; mask != 0u; mask &= mask - 1u) {
-    uint column = word * 32u + uint(findLSB(mask));
-    weights[row * c.size.x + column] = weights_of(uvec2(column, row));
+  uint thread = gl_LocalInvocationIndex;
+  uvec2 first = gl_WorkGroupID.xy * uvec2(32u, kBlockRows);
+  bool has_row = thread < kBlockRows;
+  if (thread == 0u) edge_count = pixel_count = 0u;
+  for (uint side = 0u; side < 4u && has_row; ++side) has_share[side][thread] = 0u;
+  barrier();
+  for (uint line = thread; line < kBlockRows + 34u; line += 32u) list_edges(first, line);
+  barrier();
+  for (uint i = thread; i < edge_count; i += 32u) cut_pixels(first, items[i]);
+  barrier();
+  if (has_row) list_pixels(thread);
+  barrier();
+  for (uint i = thread; i < pixel_count; i += 32u) {
+    uvec2 pixel = first + uvec2(items[i] & 31u, items[i] >> 5u);
+    weights[pixel.y * c.size.x + pixel.x] = weights_of(items[i]);
   }
+  uint row = first.y + thread;
+  if (has_row && row < c.size.y) masks[row * ((c.size.x + 31u) / 32u) + gl_WorkGroupID.x] = row_mask(thread);
+  const uint parts = 32u / uint(GLOAM_BLEND_COLUMNS);
+  if (thread < parts * (kBlockRows / uint(GLOAM_BLEND_ROWS)))
+    add_rectangle(first, uvec2(thread % parts * uint(GLOAM_BLEND_COLUMNS), thread / parts * uint(GLOAM_BLEND_ROWS)));
 }

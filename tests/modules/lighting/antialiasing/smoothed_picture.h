@@ -101,8 +101,12 @@ class SharesTwin {
   const ShownPicture& picture_;
 };
 
-/// The weights of a picture on the GPU, four 8-bit shares for each pixel.
-[[nodiscard]] inline std::vector<std::uint32_t> antialiasing_weights(gpu::Device& device, const ShownPicture& picture) {
+/// What the GPU finds in a picture.
+struct FoundWeights {
+  std::vector<std::uint32_t> weights;  ///< four 8-bit shares for each pixel
+  std::vector<uvec2> rectangles;       ///< drawn ones, as in weights.comp.glsl
+};
+[[nodiscard]] inline FoundWeights find_weights(gpu::Device& device, const ShownPicture& picture) {
   std::vector<std::array<std::uint16_t, 4>> halves;
   for (const vec4& pixel : picture.pixels)
     halves.push_back({float_to_half(pixel.x), float_to_half(pixel.y), float_to_half(pixel.z), float_to_half(pixel.w)});
@@ -117,14 +121,23 @@ class SharesTwin {
     const AntialiasingWeights drawn = add_antialiasing_weights(frame, frames.input("shown", image));
     frames.keep(frame, "weights", drawn.weights, sizeof(std::uint32_t) * picture.pixels.size());
     frames.keep(frame, "masks", drawn.masks, sizeof(std::uint32_t) * words * view.height);
+    frames.keep(frame, "command", drawn.command, sizeof(uvec4));
+    frames.keep(frame, "rectangles", drawn.rectangles, frame.graph().desc(drawn.rectangles).size);
   });
-  std::vector<std::uint32_t> weights = frames.read<std::uint32_t>("weights");
+  FoundWeights found{frames.read<std::uint32_t>("weights"), frames.read<uvec2>("rectangles")};
+  const uvec4 command = frames.read<uvec4>("command").front();
+  EXPECT_EQ(command.x % 6, 0u) << "two triangles a rectangle";
+  EXPECT_LE(command.x / 6, found.rectangles.size());
+  found.rectangles.resize(std::min<std::size_t>(command.x / 6, found.rectangles.size()));
   const std::vector<std::uint32_t> masks = frames.read<std::uint32_t>("masks");
   for (std::uint32_t i = 0; i < picture.pixels.size(); ++i) {
     const std::uint32_t x = i % view.width, y = i / view.width;
-    if ((masks[y * words + x / 32] >> (x % 32) & 1u) == 0) weights[i] = 0;
+    if ((masks[y * words + x / 32] >> (x % 32) & 1u) == 0) found.weights[i] = 0;
   }
-  return weights;
+  return found;
+}
+[[nodiscard]] inline std::vector<std::uint32_t> antialiasing_weights(gpu::Device& device, const ShownPicture& picture) {
+  return find_weights(device, picture).weights;
 }
 
 [[nodiscard]] inline Shares unpacked(std::uint32_t weights) {

@@ -6,6 +6,7 @@
 #include <random>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "tests/modules/lighting/antialiasing/smoothed_picture.h"
 
@@ -16,7 +17,8 @@ class AntialiasingWeights : public AntialiasingTest {
  protected:
   /// Compares all pixels with the twin. Returns the number of pixels with a share.
   static std::size_t expect_twin(const ShownPicture& picture, const std::string& name) {
-    const std::vector<std::uint32_t> weights = antialiasing_weights(*device(), picture);
+    const auto [weights, rectangles] = find_weights(*device(), picture);
+    expect_rectangles(picture, weights, rectangles, name);
     const SharesTwin twin(picture);
     std::size_t blended = 0, faults = 0;
     for (int y = 0; y < picture.height; ++y)
@@ -31,6 +33,22 @@ class AntialiasingWeights : public AntialiasingTest {
       }
     EXPECT_EQ(faults, 0u) << name;
     return blended;
+  }
+  /// The rectangles lie in the picture and do not overlap, and all pixels with a share are in one.
+  static void expect_rectangles(const ShownPicture& picture, const std::vector<std::uint32_t>& weights,
+                                const std::vector<uvec2>& rectangles, const std::string& name) {
+    const uvec2 size(picture.width, picture.height);
+    std::vector<int> drawn(weights.size(), 0);
+    for (const uvec2& rectangle : rectangles) {
+      const uvec2 first(rectangle.x & 0xFFFFu, rectangle.x >> 16);
+      const uvec2 end = first + uvec2(rectangle.y & 0xFFFFu, rectangle.y >> 16);
+      ASSERT_TRUE(end.x <= size.x && end.y <= size.y) << name;
+      ASSERT_TRUE(first.x < end.x && first.y < end.y) << name;
+      for (std::uint32_t y = first.y; y < end.y; ++y)
+        for (std::uint32_t x = first.x; x < end.x; ++x) ASSERT_EQ(++drawn[y * size.x + x], 1) << name;
+    }
+    for (std::size_t i = 0; i < weights.size(); ++i)
+      ASSERT_TRUE(weights[i] == 0 || drawn[i] == 1) << name << ", pixel " << i;
   }
   /// Random blocks of few levels: many short edges and crossings.
   static ShownPicture blocks(int width, int height, std::uint32_t seed, int side) {
@@ -127,8 +145,11 @@ TEST_F(AntialiasingWeights, are_zero_where_nothing_is_slanted) {
       {"a horizontal line", {70, 50, [](int x, int y) { return y == 17 && x > 4 ? 0.9 : 0.2; }}},
       {"a gradient", {70, 50, [](int x, int y) { return 0.004 * (x + y); }}},
       {"tiles", {70, 50, [](int x, int y) { return (x / 4 + y / 4) % 2 == 0 ? 0.9 : 0.1; }}}};
-  for (const auto& [name, picture] : pictures)
-    for (const std::uint32_t word : antialiasing_weights(*device(), picture)) ASSERT_EQ(word, 0u) << name;
+  for (const auto& [name, picture] : pictures) {
+    const auto [weights, rectangles] = find_weights(*device(), picture);
+    for (const std::uint32_t word : weights) ASSERT_EQ(word, 0u) << name;
+    EXPECT_TRUE(rectangles.empty()) << name << ": nothing is blended";
+  }
 }
 
 TEST_F(AntialiasingWeights, are_zero_where_contours_may_go_either_way) {
