@@ -7,6 +7,7 @@
 
 #include "engine/gpu/types.h"
 #include "engine/render/knobs/knob_table.h"
+#include "modules/shadows/outputs.h"
 #include "shaders/shadows/shadows_shared.h"
 
 namespace gloam {

@@ -16,12 +16,12 @@
 
 #include "engine/ecs/entity.h"
 #include "engine/frame/frame_graph.h"
+#include "engine/render/camera/view_constants.h"
 #include "engine/render/frame_builder.h"
 #include "modules/shadows/atlas/view_faces.h"
 #include "modules/shadows/atlas/view_map_state.h"
 #include "modules/shadows/knobs.h"
 #include "modules/shadows/outputs.h"
-#include "shaders/render/view_shared.h"
 
 namespace gloam {
 

@@ -31,7 +31,8 @@ DrawnFace drawn_face(const ExtraMap& map, std::span<const Caster> casters, std::
   for (const FaceDraw& draw : region.draws) region.matrices.push_back(clip_from_mesh(map.face, draw));
   const std::vector<CasterState> states = source_states(sources);
   for (std::size_t i = 0; i < sources.size(); ++i)
-    if (holds_caster(map.casters, sources[i]->entity) && may_see(volume, states[i].box)) region.sources.push_back(sources[i]);
+    if (holds_caster(map.casters, sources[i]->entity) && may_see(volume, states[i].box))
+      region.sources.push_back(sources[i]);
   return drawn;
 }
 

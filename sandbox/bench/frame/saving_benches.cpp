@@ -50,7 +50,8 @@ struct SavingSide {
   const char* suffix;  ///< of the rows' ids
   std::span<const KnobText> changes;
 };
-constexpr std::array<SavingSide, 1> kSavingSides = {{{"", {}}}};
+constexpr std::array<KnobText, 1> kReprojected = {{{"shadows.reuse", "reprojected"}}};
+constexpr std::array<SavingSide, 2> kSavingSides = {{{"", {}}, {".reprojected", kReprojected}}};
 
 struct Motion {
   const char* name;

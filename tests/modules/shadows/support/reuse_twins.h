@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -80,9 +81,8 @@ class ReuseTwins : public HardShadows {
     lamp(sun(0.02f), turn_towards(dvec3(0.5, -0.8, -0.4)));
   }
 
-  /// Draws both, and expects equal pictures.
-  void draw_both(const std::string& what) {
-    std::vector<float> pictures[2];
+  /// Draws both. pictures: that of the keeping renderer, then the other one.
+  void draw_pictures(const std::string& what, std::array<std::vector<float>, 2>& pictures) {
     std::size_t number = 0;
     each([&](Twin& twin) {
       const ViewRequest request{settings, {}};
@@ -91,6 +91,11 @@ class ReuseTwins : public HardShadows {
       ASSERT_TRUE(twin.renderer->wait().ok());
       pictures[number++] = value_of(twin.renderer->read_linear(settings.id)).rgba;
     });
+  }
+  /// Draws both, and expects equal pictures.
+  void draw_both(const std::string& what) {
+    std::array<std::vector<float>, 2> pictures;
+    ASSERT_NO_FATAL_FAILURE(draw_pictures(what, pictures));
     EXPECT_EQ(pictures[0], pictures[1]) << what;
     if (has_lists_) {
       EXPECT_EQ(counted_anew("shadows.tile_lights_kept"), 0.0);
