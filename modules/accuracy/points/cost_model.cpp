@@ -9,7 +9,10 @@
 #include <utility>
 
 #include "engine/core/assert.h"
+#include "engine/render/kept_frames/kept_frames.h"
 #include "modules/accuracy/points/knapsack.h"
+#include "modules/lighting/outputs.h"
+#include "modules/shadows/outputs.h"
 
 namespace gloam {
 namespace {
@@ -63,6 +66,10 @@ std::vector<Changes> undominated(const CostModel& model, std::vector<Changes> al
 
 double Cost::error() const { return std::sqrt(std::max(squared_error, 0.0)); }
 
+bool reuses_last_frame(const Knob& knob) {
+  return knob.name == kFrameReuse.name || knob.name == kShadowReuse.name || knob.name == kLightReuse.name;
+}
+
 CostModel::CostModel(const std::vector<LedgerRow>& rows, const KnobRegistry& knobs) : users_(knobs) {
   for (const Knob& knob : knobs.knobs()) {
     std::vector<const LedgerRow*> own;
@@ -70,7 +77,7 @@ CostModel::CostModel(const std::vector<LedgerRow>& rows, const KnobRegistry& kno
       if (row.knob == knob.name && row.whole && row.ratio > 0.0) own.push_back(&row);
     const std::string users = knobs.text(knob);
     const LedgerRow* base = users_row(own, users);
-    if (base == nullptr || knob.is_look) continue;
+    if (base == nullptr || knob.is_look || reuses_last_frame(knob)) continue;
     // The user's settings are the same for all knobs, and so is their error.
     if (base->value == users) users_squared_error_ = squared_error_of(*base);
     VariedKnob varied = {.name = knob.name, .options = {{users, {.ratio = 0.0}}}, .scales_frame = knob.scales_frame};

@@ -14,6 +14,11 @@ namespace gloam {
 /// The knobs that a combination changes against the user's settings, and their values.
 using Changes = std::map<std::string, std::string>;
 
+/// Whether the knob says what of the last frame is kept. Combinations neither vary nor hold such knobs: they are
+/// measured at rest, where these knobs save what a moving camera pays for. Whoever draws with a combination keeps its
+/// own values.
+[[nodiscard]] bool reuses_last_frame(const Knob& knob);
+
 /// Time and error of a combination, predicted or measured.
 struct Cost {
   double ratio = 1.0;          ///< of the frame's time to that of the user's settings

@@ -15,6 +15,7 @@ std::vector<KnobValue> settings_with(const KnobRegistry& knobs, const Changes& c
   for (const Knob& knob : knobs.knobs()) {
     const auto change = changes.find(knob.name);
     std::string value = change != changes.end() ? change->second : knobs.text(knob);
+    if (reuses_last_frame(knob)) continue;
     if (value != value_text(knob, knob.default_number)) settings.push_back({knob.name, std::move(value)});
   }
   return settings;

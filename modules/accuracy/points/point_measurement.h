@@ -13,7 +13,7 @@
 
 namespace gloam {
 
-/// The knobs that are not at their declared default after the changes.
+/// The knobs that are not at their declared default after the changes, without those that reuses_last_frame().
 [[nodiscard]] std::vector<KnobValue> settings_with(const KnobRegistry& knobs, const Changes& changes);
 
 /// Measures one combination against the user's settings.

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "modules/accuracy/points/point_choice.h"
+#include "modules/accuracy/points/point_measurement.h"
 
 namespace gloam {
 namespace {
@@ -55,6 +56,18 @@ TEST(CostModel, adds_differences_of_time_and_of_squared_errors) {
   std::vector<LedgerRow> rows = rows_abc();
   rows[0].whole->flip.mean = 0.03 - 9e-5;
   EXPECT_DOUBLE_EQ(CostModel(rows, knobs_abc()).predict({{"k.a", "low"}}).error(), 0.03) << "nobody sees that";
+}
+
+TEST(CostModel, does_not_vary_what_is_kept_of_the_last_frame) {
+  KnobRegistry knobs = knobs_abc();
+  knobs.add({.name = "shadows.reuse", .module = "shadows", .choices = {"off", "exact"}, .default_number = 1});
+  ASSERT_TRUE(knobs.set("shadows.reuse", "off").ok());
+  std::vector<LedgerRow> rows = rows_abc();
+  rows.push_back(row_of("shadows.reuse", "off", 1.0, 0.03));
+  rows.push_back(row_of("shadows.reuse", "exact", 0.1, 0.03, true));  // at rest
+  const CostModel model(rows, knobs);
+  for (const auto& knob : model.knobs()) EXPECT_NE(knob.name, "shadows.reuse");
+  EXPECT_THAT(settings_with(knobs, {{"k.a", "low"}}), SizeIs(1)) << "it is off for the measurement alone";
 }
 
 TEST(CostModel, does_not_vary_wrong_values_looks_and_knobs_without_effect) {

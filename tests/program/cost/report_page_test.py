@@ -206,6 +206,8 @@ class ReportPage(ProgramCase):
         self.assertNotIn("not embedded", self.value("document.body.innerText"))
         self.assertEqual(self.value("document.getElementById('shown').textContent"),
                          self.value("rows.tBodies[0].rows.length + ' of ' + rows.tBodies[0].rows.length + ' rows'"))
+        # What cost has switched off, so that frames at rest cost what others do, is no advice.
+        self.assertNotIn("reuse", self.value("document.querySelector('.lead').innerText"))
         first = self.value("document.querySelector('.lead').getBoundingClientRect().bottom")
         self.assertLess(first, SIZES[0][1], "the answer and its pictures stand on the first screen")
 

@@ -13,6 +13,7 @@ namespace gloam {
 namespace {
 
 constexpr const char* kDensity = "shadows.texels_per_pixel";
+constexpr const char* kDirections = "shadows.near_directions";
 
 TEST(ReducedKnobs, maps_are_coarser_below_half_the_size_and_at_least_half_as_dense) {
   const KnobRegistry knobs = all_knobs(make_all_modules());
@@ -21,9 +22,10 @@ TEST(ReducedKnobs, maps_are_coarser_below_half_the_size_and_at_least_half_as_den
   double above = knobs.find(kDensity)->default_number;
   for (const double scale : {0.42, 0.35, 0.3, 0.25}) {
     const auto reduced = knobs_at_scale(knobs, scale);
-    ASSERT_EQ(reduced.size(), 1u) << scale;
+    ASSERT_EQ(reduced.size(), 2u) << scale;
     KnobRegistry set = all_knobs(make_all_modules());
-    ASSERT_TRUE(set.set(reduced.front().name, reduced.front().value).ok()) << reduced.front().value;
+    for (const KnobOverride& knob : reduced) ASSERT_TRUE(set.set(knob.name, knob.value).ok()) << knob.value;
+    EXPECT_EQ(set.text(*set.find(kDirections)), "8");
     const double density = set.number(*set.find(kDensity));
     EXPECT_LT(density, above) << scale;
     above = density;
@@ -34,6 +36,7 @@ TEST(ReducedKnobs, maps_are_coarser_below_half_the_size_and_at_least_half_as_den
 TEST(ReducedKnobs, a_changed_knob_stays) {
   KnobRegistry knobs = all_knobs(make_all_modules());
   ASSERT_TRUE(knobs.set(kDensity, "2").ok());
+  ASSERT_TRUE(knobs.set(kDirections, "32").ok());
   EXPECT_TRUE(knobs_at_scale(knobs, 0.25).empty());
 }
 
