@@ -91,6 +91,8 @@ ShadowKnobs knobs_of(const FrameBuilder& frame) {
   knobs.terminator = knobs.terminator && geometry != nullptr && geometry->smooth_surfaces;
   knobs.transmission = lets_light_through(frame.world());
   if (!may_have_dim_lights(frame)) knobs.min_contribution = 0.0f;
+  // Pictures that accumulate under jitter need shadows of points between pixels, not those of the nearest pixel.
+  if (frame.view().jittered && knobs.reuse == ShadowReuse::reprojected) knobs.reuse = ShadowReuse::exact;
   knobs.atlas_size = frame.world().view_resource<ViewFaces>(frame.view().id).atlas.size();
   return knobs;
 }

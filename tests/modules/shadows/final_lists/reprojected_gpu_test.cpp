@@ -162,6 +162,17 @@ TEST_F(ReprojectedShadows, cuts_sizes_and_frames_that_are_given_up_leave_nothing
   draw_both("exact, again");
 }
 
+TEST_F(ReprojectedShadows, pictures_that_accumulate_under_jitter_take_nothing) {
+  both("lighting.antialiasing", "taa");
+  for (int i = 0; i < 4; ++i) {
+    step_camera(dvec3(0.01, 0.0, 0.0));
+    draw_both("step " + std::to_string(i));
+    if (i > 0) {  // the first frame after a cut has no jitter
+      EXPECT_EQ(reprojected(), 0.0);
+    }
+  }
+}
+
 TEST_F(ReprojectedShadows, random_changes_leave_small_errors_that_end) {
   std::mt19937 random(11);
   const auto some = [&](double most) { return std::uniform_real_distribution<double>(-most, most)(random); };
