@@ -46,6 +46,51 @@ TEST(LastIndices, of_a_light_that_changed_is_new_or_is_another_entity_there_are_
   EXPECT_EQ(std::ranges::count(indices, kChanged), static_cast<std::ptrdiff_t>(indices.size()));
 }
 
+/// Lights that may be reprojected from frame 7 of the casters to frame 8.
+ListInputs steady_lights(std::uint64_t caster_frame) {
+  ListInputs inputs = three_lights_and_a_sun();
+  inputs.steady = 3;
+  inputs.caster_frame = caster_frame;
+  for (std::vector<LightInputs>* lights : {&inputs.local, &inputs.directional})
+    for (LightInputs& light : *lights) light.steady = 4, light.casters = CastersMoved::none;
+  return inputs;
+}
+
+TEST(LastIndices, mark_lights_that_a_moving_camera_may_reproject) {
+  const ListInputs last = steady_lights(7);
+  ListInputs now = steady_lights(8);
+  now.shared = 6;                                // the camera has moved
+  now.local[0].maps = 2;                         // a map was drawn anew
+  now.local[1].casters = CastersMoved::some;     // a caster has moved
+  now.local[2].casters = CastersMoved::unknown;  // it may be anywhere
+  now.directional[0].composed = 7;               // close-ups change it otherwise
+  const std::vector<std::uint32_t> indices = last_indices(last, now);
+  EXPECT_EQ(indices[0], GLOAM_LIGHT_REPROJECTED);
+  EXPECT_EQ(indices[1], 1u | GLOAM_LIGHT_REPROJECTED | GLOAM_LIGHT_CASTERS_MOVED);
+  EXPECT_EQ(indices[2], kChanged);
+  EXPECT_EQ(indices[GLOAM_MAX_LOCAL_LIGHTS], GLOAM_LIGHT_REPROJECTED | GLOAM_LIGHT_RECOMPOSED);
+  EXPECT_TRUE(reprojects_any(indices));
+}
+
+TEST(LastIndices, mark_none_to_be_reprojected_where_lights_casters_or_knobs_are_others) {
+  const ListInputs last = steady_lights(7);
+  const auto changed = [&](auto&& change) {
+    ListInputs now = steady_lights(8);
+    now.shared = 6;
+    change(now);
+    const std::vector<std::uint32_t> indices = last_indices(last, now);
+    return std::ranges::count(indices, kChanged) == static_cast<std::ptrdiff_t>(indices.size());
+  };
+  EXPECT_TRUE(changed([](ListInputs& now) { now.steady = 9; })) << "knobs";
+  EXPECT_TRUE(changed([](ListInputs& now) { now.caster_frame = 9; })) << "a frame was missed: casters moved unseen";
+  EXPECT_TRUE(changed([](ListInputs& now) { now.caster_frame = 0; })) << "exact frames know no casters";
+  EXPECT_TRUE(changed([](ListInputs& now) {
+    for (LightInputs& light : now.local) light.steady = 5;
+    now.directional[0].steady = 5;
+  })) << "lights moved";
+  EXPECT_FALSE(changed([](ListInputs&) {}));
+}
+
 TEST(LastIndices, mark_lights_whose_visibilities_later_modules_change_otherwise) {
   const ListInputs last = three_lights_and_a_sun();
   ListInputs now = last;
