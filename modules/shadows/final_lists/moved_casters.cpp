@@ -23,7 +23,7 @@ class MovedSpheres {
   /// False if there is no room.
   bool add(const CasterBox& box) {
     const dvec3 centre = 0.5 * (box.low + box.high) - camera_;
-    // Wider by the width of a filter's kernel, of which nothing is known here.
+    // A tenth wider than the box, for a filter's kernel, whose width is not known here.
     const vec4 sphere(vec3(centre), static_cast<float>(0.55 * glm::length(box.high - box.low)));
     if (std::ranges::find(spheres_, sphere) != spheres_.end()) return true;
     if (spheres_.size() == GLOAM_MOST_MOVED_CASTERS) return false;

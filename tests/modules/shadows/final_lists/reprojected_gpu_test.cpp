@@ -26,12 +26,6 @@ class ReprojectedShadows : public test::ReuseTwins {
     if (IsSkipped()) return;
     ASSERT_TRUE(keeping_.renderer->knobs().set("shadows.reuse", "reprojected").ok());
   }
-  void TearDown() override {
-    if (keeping_.renderer != nullptr) {
-      EXPECT_TRUE(keeping_.renderer->knobs().set("shadows.reuse", "exact").ok());
-    }
-    ReuseTwins::TearDown();
-  }
 
   struct Difference {
     double mean = 0.0;   ///< over the mean of the picture
