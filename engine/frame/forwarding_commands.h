@@ -73,6 +73,8 @@ class ForwardingCommands : public gpu::CommandList {
   void dispatch_indirect(gpu::BufferHandle buffer, std::uint64_t offset) override {
     next_.dispatch_indirect(buffer, offset);
   }
+  void* begin_native(std::optional<std::uint64_t> revision) override { return next_.begin_native(revision); }
+  void end_native() override { next_.end_native(); }
 
  private:
   gpu::CommandList& next_;

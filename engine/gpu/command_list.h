@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -88,6 +90,11 @@ class CommandList {
   virtual void dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z) = 0;
   /// The buffer holds the three 32-bit numbers of workgroups.
   virtual void dispatch_indirect(BufferHandle buffer, std::uint64_t offset) = 0;
+
+  /// For gpu::native_commands (engine/gpu/vulkan_interop.h), which states the rules: the caller records into the
+  /// command buffer of the graphics API until end_native. Returns the command buffer; null if the device has none.
+  virtual void* begin_native(std::optional<std::uint64_t> revision) = 0;
+  virtual void end_native() = 0;
 };
 
 }  // namespace gloam::gpu

@@ -56,6 +56,8 @@ class Device {
   [[nodiscard]] virtual const ImageDesc& desc(ImageHandle image) const = 0;
   /// Whether the image belongs to a window or a host, who may change its contents between frames.
   [[nodiscard]] virtual bool is_foreign(ImageHandle) const { return false; }
+  /// Whether the buffer belongs to a host.
+  [[nodiscard]] virtual bool is_foreign(BufferHandle) const { return false; }
   /// The mapped bytes of the whole buffer, which must be an upload or readback buffer.
   [[nodiscard]] virtual std::span<std::byte> mapped(BufferHandle buffer) = 0;
 

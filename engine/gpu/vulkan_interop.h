@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -70,6 +71,15 @@ struct HostDevice {
 /// have finished on the GPU.
 [[nodiscard]] ImageHandle import_image(Device& device, VkImage image, const ImageDesc& desc);
 
+/// Returns a gloam handle for a buffer of the host, so that passes can declare it (FrameGraph::import_buffer), commands
+/// can bind it, and gloam places the barriers between them. `desc` states the buffer's size and the usage flags that it
+/// was created with; `memory` stays MemoryKind::device, because gloam never maps it. The buffer must be usable on the
+/// device's queue family: concurrent, or exclusive and owned by this family or by none. Device::destroy removes the
+/// handle, never the buffer, which must live until all frames that use it have finished on the GPU. gloam cannot see
+/// when the host changes the contents: a frame whose commands bind such a buffer is drawn even if nothing else has
+/// changed (`scene.reuse`).
+[[nodiscard]] BufferHandle import_buffer(Device& device, VkBuffer buffer, const BufferDesc& desc);
+
 /// The layout of an image that gloam has left ready for an access, and the stages and accesses that a later barrier
 /// must wait for.
 struct HostImageLayout {
@@ -81,6 +91,70 @@ struct HostImageLayout {
 /// result as its source (oldLayout, srcStageMask, srcAccessMask). A host barrier before gloam's work uses it as its
 /// destination.
 [[nodiscard]] HostImageLayout host_image_layout(Access access);
+
+/// The stages and accesses of an access to a buffer, for the host's own barriers: as in host_image_layout.
+struct HostBufferAccess {
+  VkPipelineStageFlags2 stages = VK_PIPELINE_STAGE_2_NONE;
+  VkAccessFlags2 access = VK_ACCESS_2_NONE;
+};
+/// access: one that buffers support, or Access::none (no stages).
+[[nodiscard]] HostBufferAccess host_buffer_access(Access access);
+
+/// The Vulkan format of gloam's format, e.g. of kCasterDepthFormat for VkPipelineRenderingCreateInfo.
+[[nodiscard]] VkFormat native_format(Format format);
+/// The Vulkan objects behind gloam's handles, to be bound in native commands. They stay gloam's. A resource of the
+/// frame graph (PassContext::buffer, PassContext::image) may be used in its pass only, in the ways that the pass
+/// declares. The image is in the layout of the declared access (host_image_layout). The view lives as long as the
+/// image; it is a 2D array if it has several layers or ImageView::as_array is set, also of cube images.
+[[nodiscard]] VkBuffer native_buffer(Device& device, BufferHandle buffer);
+[[nodiscard]] Result<VkImageView> native_view(Device& device, const ImageView& view);
+
+/// The host records into gloam's command buffer while an object of this class lives. See native_commands.
+class NativeCommands {
+ public:
+  ~NativeCommands();
+  NativeCommands(const NativeCommands&) = delete;
+  NativeCommands& operator=(const NativeCommands&) = delete;
+  /// Null on a device that records without a GPU (make_recording_device): the host then records nothing.
+  [[nodiscard]] VkCommandBuffer get() const { return buffer_; }
+
+ private:
+  friend NativeCommands native_commands(CommandList& commands, std::optional<std::uint64_t> revision);
+  NativeCommands(CommandList& commands, std::optional<std::uint64_t> revision);
+
+  CommandList& commands_;
+  VkCommandBuffer buffer_;
+};
+
+/// Gives the host the VkCommandBuffer that gloam records, in the function of a pass (PassContext::commands) or of a
+/// caster source (CasterSource::record), so that it draws or dispatches with its own pipelines, descriptor sets and
+/// buffers. The host records until the returned object ends; meanwhile calls of CommandList assert.
+///
+/// On entry: a primary command buffer of HostDevice::queue_family that is being recorded. In a caster source, and
+/// between begin_rendering and end_rendering in a pass, it is inside dynamic rendering without VkRenderingFlags, with
+/// view mask 0 and one sample; viewport 0 (of negative height, so clip space has Y up) and scissor 0 are set. Resources
+/// are ready for the accesses that the pass has declared. No pipeline, descriptor set, push constant, vertex or index
+/// buffer is defined.
+///
+/// On exit:
+/// - Rendering is as it was: begun with the same attachments, or not begun. Inside rendering there are no barriers,
+///   copies, dispatches and secondary command buffers, as Vulkan demands.
+/// - Queries, labels and conditional rendering that the host has begun are ended.
+/// - Images of gloam are in the layout in which they were, and resources that the pass declares have been accessed in
+///   the declared ways only. What the host uses and the pass does not declare (import_buffer makes that possible), the
+///   host synchronises itself.
+/// - The command buffer has not been ended, reset or submitted.
+/// Pipelines, sets, push constants, buffers and dynamic state need not be restored. gloam sets viewport and scissor
+/// again. Whoever goes on with CommandList binds pipeline, bindings and buffers first; otherwise draws and dispatches
+/// assert.
+///
+/// revision: a number that changes with what the commands do: with the commands themselves, their constants, and the
+/// contents of the host's resources that they read. The renderer may drop the commands of a frame in which no such
+/// number and nothing else has changed, because the results are there already (`scene.reuse=exact`). None: frames with
+/// these commands are never dropped for that reason. In a caster source it is not needed: CasterSource::content_hash
+/// decides whether the source is drawn at all. A frame that is given up after an error is dropped in any case, so the
+/// host must not take recorded commands for executed ones.
+[[nodiscard]] NativeCommands native_commands(CommandList& commands, std::optional<std::uint64_t> revision = {});
 
 /// A semaphore for synchronisation with work on other queues. Work on the same queue needs none: gloam's barriers wait
 /// for everything submitted before, and a host barrier with host_image_layout as its source waits for gloam.

@@ -45,6 +45,8 @@ void CommandRecorder::begin_frame(std::uint64_t frame) {
 
 std::vector<std::uint64_t> CommandRecorder::end_frame() {
   if (rendering_) fault("submit_frame", "begin_rendering has no end_rendering");
+  if (native_) fault("submit_frame", "native commands have not ended");
+  native_ = false;
   if (tracker_.label_open()) fault("submit_frame", "a label is still open");
   while (tracker_.end_label()) {
   }
@@ -55,6 +57,7 @@ std::vector<std::uint64_t> CommandRecorder::end_frame() {
 
 void CommandRecorder::abandon_frame() {
   tracker_.abandon_frame();
+  native_ = false;
   while (tracker_.end_label()) {
   }
   rendering_ = false;
@@ -69,6 +72,7 @@ void CommandRecorder::note(std::string_view command, std::string text, Place pla
   commands_.push_back(
       {.name = std::string(command), .text = std::string(command) + (text.empty() ? "" : " ") + std::move(text)});
   if (!recording_) fault(command, "recorded outside begin_frame and submit_frame");
+  if (native_) fault(command, "recorded before the host's native commands have ended");
   if (place == Place::outside_rendering && rendering_) fault(command, "not allowed between begin and end of rendering");
   if (place == Place::inside_rendering && !rendering_)
     fault(command, "only allowed between begin and end of rendering");
@@ -160,6 +164,22 @@ void CommandRecorder::bind_pipeline(PipelineHandle handle) {
   pipeline_ = handle;
   bindings_.clear();
   sets_.clear();
+}
+
+void* CommandRecorder::begin_native(std::optional<std::uint64_t> revision) {
+  note("begin_native", revision ? std::to_string(*revision) : "", Place::anywhere);
+  native_ = true;
+  pipeline_ = {};
+  bindings_.clear();
+  sets_.clear();
+  vertex_streams_.clear();
+  indices_ = {};
+  return nullptr;
+}
+
+void CommandRecorder::end_native() {
+  native_ = false;
+  note("end_native", "", Place::anywhere);
 }
 
 void CommandRecorder::push_constants(std::span<const std::byte> bytes) {

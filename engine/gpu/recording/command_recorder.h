@@ -60,6 +60,8 @@ class CommandRecorder final : public CommandList {
   void draw_indexed_indirect(BufferHandle buffer, std::uint64_t offset, std::uint32_t draw_count) override;
   void dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z) override;
   void dispatch_indirect(BufferHandle buffer, std::uint64_t offset) override;
+  void* begin_native(std::optional<std::uint64_t> revision) override;
+  void end_native() override;
 
  private:
   enum class Place { anywhere, outside_rendering, inside_rendering };
@@ -90,6 +92,7 @@ class CommandRecorder final : public CommandList {
   std::uint64_t clock_ns_ = 0;
   bool recording_ = false;
   bool rendering_ = false;
+  bool native_ = false;  ///< a host is recording
   PipelineHandle pipeline_;
   std::vector<Binding> bindings_;             ///< bound to set 0
   std::vector<ResourceSetHandle> sets_;       ///< by set number; none where nothing is bound

@@ -102,6 +102,8 @@ Result<CommandList*> VulkanDevice::begin(bool side_frame) {
 }
 
 Status VulkanDevice::submit_frame() {
+  GLOAM_ASSERT(!frames_->recording() || !commands_->native(),
+               "native commands are ended before the frame is submitted");
   GLOAM_ASSERT(!frames_->recording() || !commands_->rendering(), "rendering is ended before the frame is submitted");
   const std::optional<Error>& fault = commands_->fault();
   if (!fault) return frames_->submit();

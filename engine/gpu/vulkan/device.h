@@ -80,6 +80,7 @@ class VulkanDevice final : public Device {
   [[nodiscard]] Status abandon_frame() override;
   [[nodiscard]] bool records_for_host() const override { return frames_->records_for_host(); }
   [[nodiscard]] bool is_foreign(ImageHandle image) const override { return !images_.get(image).memory; }
+  [[nodiscard]] bool is_foreign(BufferHandle buffer) const override { return !buffers_.get(buffer).memory; }
   [[nodiscard]] Status wait_frame(std::uint64_t frame) override { return frames_->wait_frame(frame); }
   [[nodiscard]] std::uint64_t frame_number() const override { return frames_->number(); }
   [[nodiscard]] std::uint64_t completed_frames() const override { return frames_->completed(); }
@@ -95,6 +96,7 @@ class VulkanDevice final : public Device {
 
   // For the swapchain and vulkan_interop.h.
   [[nodiscard]] Context& context() { return *context_; }
+  [[nodiscard]] Buffers& buffers() { return buffers_; }
   [[nodiscard]] Images& images() { return images_; }
   [[nodiscard]] Frames& frames() { return *frames_; }
   // For tests.

@@ -4,6 +4,7 @@
 
 #include "engine/gpu/access.h"
 #include "engine/gpu/vulkan/barriers.h"
+#include "engine/gpu/vulkan/convert.h"
 #include "engine/gpu/vulkan/device.h"
 #include "engine/gpu/vulkan/startup/features.h"
 
@@ -44,10 +45,47 @@ ImageHandle import_image(Device& device, VkImage image, const ImageDesc& desc) {
   return vulkan_device(device).images().adopt(desc, image);
 }
 
+BufferHandle import_buffer(Device& device, VkBuffer buffer, const BufferDesc& desc) {
+  GLOAM_ASSERT(buffer != VK_NULL_HANDLE, "a buffer to import must exist");
+  return vulkan_device(device).buffers().adopt(desc, buffer);
+}
+
 HostImageLayout host_image_layout(Access access) {
   GLOAM_ASSERT(access == Access::none || fits_image(access), "only accesses that images can have say a layout");
   const vulkan::AccessFacts& facts = vulkan::facts_of(access);
   return {facts.layout, facts.stages, facts.access};
+}
+
+HostBufferAccess host_buffer_access(Access access) {
+  GLOAM_ASSERT(access == Access::none || fits_buffer(access), "only accesses that buffers can have say their stages");
+  const vulkan::AccessFacts& facts = vulkan::facts_of(access);
+  return {facts.stages, facts.access};
+}
+
+VkFormat native_format(Format format) { return vulkan::to_vulkan(format); }
+
+VkBuffer native_buffer(Device& device, BufferHandle buffer) {
+  return vulkan_device(device).buffers().get(buffer).buffer;
+}
+
+Result<VkImageView> native_view(Device& device, const ImageView& view) {
+  vulkan::Images& images = vulkan_device(device).images();
+  const ImageDesc& desc = images.get(view.image).desc;
+  vulkan::ViewKey key = vulkan::resolve_view(desc, view);
+  const bool array = view.as_array || key.layer_count > 1;
+  key.type = desc.shape == ImageShape::volume ? VK_IMAGE_VIEW_TYPE_3D
+             : array                          ? VK_IMAGE_VIEW_TYPE_2D_ARRAY
+                                              : VK_IMAGE_VIEW_TYPE_2D;
+  return images.view(view.image, key);
+}
+
+NativeCommands::NativeCommands(CommandList& commands, std::optional<std::uint64_t> revision)
+    : commands_(commands), buffer_(static_cast<VkCommandBuffer>(commands.begin_native(revision))) {}
+
+NativeCommands::~NativeCommands() { commands_.end_native(); }
+
+NativeCommands native_commands(CommandList& commands, std::optional<std::uint64_t> revision) {
+  return NativeCommands(commands, revision);
 }
 
 void add_frame_semaphores(Device& device, std::span<const HostSemaphore> waits,

@@ -81,6 +81,10 @@ class CasterSourceDraw {
   /// Texels of the face's side. Parts of a face have the projection and the size of the whole face, and the triangles
   /// must be the same in all of them.
   [[nodiscard]] std::uint32_t face_size() const { return face_size_; }
+  /// The map's depth bias, for pipelines of the host (gpu::native_commands): the first and the last factor of
+  /// vkCmdSetDepthBias. Negative, because depth is reversed.
+  [[nodiscard]] float bias_units() const { return bias_units_; }
+  [[nodiscard]] float bias_slope() const { return bias_slope_; }
   /// Index of the part by CasterSource::prepare; kNoPart: the part has not been prepared.
   [[nodiscard]] std::uint32_t part() const { return part_; }
   static constexpr std::uint32_t kNoPart = ~0u;
@@ -105,7 +109,8 @@ struct CasterSource {
   /// Encloses all triangles in this frame; the unknown box: they may be anywhere. Maps are redrawn only inside the
   /// bounds that changed.
   WorldBox bounds;
-  /// Of everything that the triangles depend on. Cached maps stay valid while hash, bounds and entity stay the same.
+  /// Of everything that the triangles depend on, or a number that the host raises with each change. Cached maps stay
+  /// valid while hash, bounds and entity stay the same. 0: not known; the source then counts as moving, without turns.
   std::uint64_t content_hash = 0;
   /// The triangles differ from frame to frame, and content_hash is ignored. Faces that see the source are redrawn every
   /// frame inside its bounds; the depth of resting casters is taken from the cache.
@@ -120,8 +125,12 @@ struct CasterSource {
   /// draws maps, if any face of the frame draws the source. May be empty.
   std::function<void(PassBuilder&)> declare_reads;
   /// Records the draws of all triangles. Called several times a frame, inside a pass that is rendering: viewport,
-  /// scissor and target are set and must not change. Not empty.
+  /// scissor and target are set and must not change. A host may record with pipelines and buffers that are unknown to
+  /// gloam (gpu::native_commands). Not empty.
   std::function<void(const CasterSourceDraw&)> record;
+
+  /// Whether nothing drawn from the source may be kept for the next frame.
+  [[nodiscard]] bool changes_every_frame() const { return moving || content_hash == 0; }
 };
 
 }  // namespace gloam

@@ -36,6 +36,7 @@ enum class DigestCommands::Command : std::uint8_t {
   draw_indexed_indirect,
   dispatch,
   dispatch_indirect,
+  native,
 };
 
 template <class... Numbers>
@@ -55,7 +56,7 @@ void DigestCommands::bytes(std::span<const std::byte> data) { value(hash_bytes(d
 void DigestCommands::add_float(float number) { value(std::bit_cast<std::uint32_t>(number)); }
 
 void DigestCommands::add_image(gpu::ImageHandle image) {
-  foreign_ = foreign_ || (image && device_.is_foreign(image));
+  unknown_ = unknown_ || (image && device_.is_foreign(image));
   whole_.value(image.index).value(image.generation);
   if (!outlives_(image, {})) inputs_.value(image.index).value(image.generation);
 }
@@ -67,6 +68,7 @@ void DigestCommands::add_view(const gpu::ImageView& view) {
 
 void DigestCommands::add_range(gpu::BufferHandle buffer, std::uint64_t offset, std::uint64_t size) {
   value(size);
+  unknown_ = unknown_ || device_.is_foreign(buffer);
   switch (device_.desc(buffer).memory) {
     case gpu::MemoryKind::upload: {
       const std::span<const std::byte> data = device_.mapped(buffer).subspan(offset);
@@ -252,6 +254,12 @@ void DigestCommands::dispatch_indirect(gpu::BufferHandle buffer, std::uint64_t o
   add(Command::dispatch_indirect);
   add_range(buffer, offset, 3 * sizeof(std::uint32_t));
   ForwardingCommands::dispatch_indirect(buffer, offset);
+}
+
+void* DigestCommands::begin_native(std::optional<std::uint64_t> revision) {
+  unknown_ = unknown_ || !revision;
+  add(Command::native, revision.value_or(0));
+  return ForwardingCommands::begin_native(revision);
 }
 
 }  // namespace gloam

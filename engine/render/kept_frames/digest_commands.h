@@ -35,9 +35,10 @@ class DigestCommands final : public frame::ForwardingCommands {
   DigestCommands(gpu::CommandList& next, gpu::Device& device, Outlives outlives)
       : ForwardingCommands(next), device_(device), outlives_(std::move(outlives)) {}
 
-  /// None if the frame uses an image of a window or a host, whose contents are not known.
+  /// None if the frame uses an image of a window, an image or a buffer of a host, whose contents are not known, or
+  /// native commands without a revision.
   [[nodiscard]] std::optional<FrameDigest> digest() const {
-    return foreign_ ? std::nullopt : std::optional(FrameDigest{inputs_.digest(), whole_.digest()});
+    return unknown_ ? std::nullopt : std::optional(FrameDigest{inputs_.digest(), whole_.digest()});
   }
 
   void copy_buffer(gpu::BufferHandle source, std::uint64_t source_offset, gpu::BufferHandle target,
@@ -69,6 +70,7 @@ class DigestCommands final : public frame::ForwardingCommands {
   void draw_indexed_indirect(gpu::BufferHandle buffer, std::uint64_t offset, std::uint32_t draw_count) override;
   void dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z) override;
   void dispatch_indirect(gpu::BufferHandle buffer, std::uint64_t offset) override;
+  void* begin_native(std::optional<std::uint64_t> revision) override;
 
  private:
   enum class Command : std::uint8_t;
@@ -87,7 +89,7 @@ class DigestCommands final : public frame::ForwardingCommands {
   gpu::Device& device_;
   Outlives outlives_;
   Hasher inputs_, whole_;
-  bool foreign_ = false;
+  bool unknown_ = false;  ///< the commands read something that has no hash
 };
 
 }  // namespace gloam

@@ -163,9 +163,10 @@ std::vector<CasterState> source_states(std::span<const CasterSource* const> sour
     hasher.value(source->content_hash);
     for (const dvec3& corner : {box.min, box.max})
       for (int axis = 0; axis < 3; ++axis) hasher.value(std::bit_cast<std::uint64_t>(corner[axis]));
+    const std::uint32_t turns = source->content_hash == 0 ? 1 : source->turns;
     states.push_back({hasher.digest(),
-                      source->moving,
-                      {box.min, box.max, 0.0, source->turns, source->turns > 1 ? source->content_hash : 0},
+                      source->changes_every_frame(),
+                      {box.min, box.max, 0.0, turns, turns > 1 ? source->content_hash : 0},
                       source->entity});
   }
   return states;

@@ -179,6 +179,26 @@ VkDeviceMemory VulkanHost::allocate(const VkMemoryRequirements& needs, VkMemoryP
   return allocated;
 }
 
+HostBuffer VulkanHost::create_buffer(VkBufferUsageFlags usage, std::span<const std::byte> bytes) {
+  const VkBufferCreateInfo info = {.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = bytes.size(), .usage = usage};
+  HostBuffer buffer = {.size = bytes.size()};
+  require(vkCreateBuffer(device_, &info, nullptr, &buffer.buffer), "vkCreateBuffer");
+  VkMemoryRequirements needs;
+  vkGetBufferMemoryRequirements(device_, buffer.buffer, &needs);
+  buffer.memory = allocate(needs, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
+  require(vkBindBufferMemory(device_, buffer.buffer, buffer.memory, 0), "vkBindBufferMemory");
+  void* mapped = nullptr;
+  require(vkMapMemory(device_, buffer.memory, 0, bytes.size(), 0, &mapped), "vkMapMemory");
+  std::memcpy(mapped, bytes.data(), bytes.size());
+  vkUnmapMemory(device_, buffer.memory);
+  return buffer;
+}
+
+void VulkanHost::destroy(const HostBuffer& buffer) {
+  vkDestroyBuffer(device_, buffer.buffer, nullptr);
+  vkFreeMemory(device_, buffer.memory, nullptr);
+}
+
 HostImage VulkanHost::create_image(VkFormat format, std::uint32_t width, std::uint32_t height) {
   const VkImageCreateInfo info = {.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
                                   .imageType = VK_IMAGE_TYPE_2D,

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,12 @@ struct HostImage {
   std::uint32_t height = 0;
 };
 
+struct HostBuffer {
+  VkBuffer buffer = VK_NULL_HANDLE;
+  VkDeviceMemory memory = VK_NULL_HANDLE;
+  VkDeviceSize size = 0;
+};
+
 /// The Vulkan objects of a program with its own renderer: instance, device, queue, images and commands. It links
 /// libvulkan and calls its prototypes.
 class VulkanHost {
@@ -35,11 +42,15 @@ class VulkanHost {
 
   /// The description of this device for gloam. It points into this object.
   [[nodiscard]] gloam::gpu::HostDevice describe();
+  [[nodiscard]] VkDevice device() const { return device_; }
   [[nodiscard]] const std::string& device_name() const { return name_; }
   [[nodiscard]] bool validates() const { return messenger_ != VK_NULL_HANDLE; }
   /// Destroys everything except the instance. Returns the number of validation messages in this object's lifetime.
   [[nodiscard]] std::uint64_t close();
 
+  /// Creates a buffer with these bytes, which the CPU has written once the next submission begins.
+  [[nodiscard]] HostBuffer create_buffer(VkBufferUsageFlags usage, std::span<const std::byte> bytes);
+  void destroy(const HostBuffer& buffer);
   /// Creates an image of four bytes per texel that can be rendered to, sampled and copied from.
   [[nodiscard]] HostImage create_image(VkFormat format, std::uint32_t width, std::uint32_t height);
   void destroy(const HostImage& image);

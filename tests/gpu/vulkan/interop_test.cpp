@@ -94,6 +94,45 @@ TEST_F(Interop, an_imported_image_is_written_and_left_to_the_host) {
   EXPECT_EQ(test::items_of<std::uint32_t>(device(), bytes).at(15), 0xFF0000FFu);
 }
 
+TEST_F(Interop, an_imported_buffer_is_used_by_both_and_outlives_its_handle) {
+  const BufferHandle theirs = test::make_storage(device(), 64);
+  const auto ours = test::value_of(create_vulkan_device_on(lend()));
+  const BufferDesc desc{.name = "lent",
+                        .module = "test",
+                        .size = 64,
+                        .usage = BufferUsage::transfer_source | BufferUsage::transfer_target | BufferUsage::storage};
+  const BufferHandle imported = import_buffer(*ours, native_buffer(device(), theirs), desc);
+  EXPECT_EQ(native_buffer(*ours, imported), native_buffer(device(), theirs));
+  const auto before = ours->memory();
+  const BufferHandle result = test::make_readback(*ours, 64);
+  test::run_frame(*ours, [&](CommandList& commands) {
+    commands.fill_buffer(imported, 0, 64, 5);
+    to(commands, imported, Access::transfer_write, Access::transfer_write);
+    {
+      const NativeCommands native = native_commands(commands);
+      const std::uint32_t seven = 7;
+      reinterpret_cast<PFN_vkCmdUpdateBuffer>(
+          context().instance_functions().vkGetDeviceProcAddr(context().device, "vkCmdUpdateBuffer"))(
+          native.get(), native_buffer(*ours, imported), 4, sizeof(seven), &seven);
+    }
+    to(commands, imported, Access::transfer_write, Access::transfer_read);
+    commands.copy_buffer(imported, 0, result, 0, 64);
+    to(commands, result, Access::transfer_write, Access::host_read);
+  });
+  const auto read = test::items_of<std::uint32_t>(*ours, result);
+  EXPECT_EQ(read.at(0), 5u);
+  EXPECT_EQ(read.at(1), 7u);
+  EXPECT_EQ(read.at(2), 5u);
+  ours->destroy(imported);
+  EXPECT_EQ(before.size(), 0u) << "a host's bytes are not gloam's";
+  const BufferHandle again = test::make_readback(device(), 64);
+  test::run_frame(device(), [&](CommandList& commands) {
+    commands.copy_buffer(theirs, 0, again, 0, 64);
+    to(commands, again, Access::transfer_write, Access::host_read);
+  });
+  EXPECT_EQ(test::items_of<std::uint32_t>(device(), again).at(1), 7u);
+}
+
 TEST_F(Interop, a_frame_waits_for_the_hosts_semaphore_and_signals_another) {
   vulkan::Context& c = context();
   const VkSemaphoreTypeCreateInfo type = {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO,
@@ -189,6 +228,20 @@ TEST(HostFeatures, the_structures_of_single_features_count) {
   v12.pNext = &rendering;
   chain.pNext = &v12;
   EXPECT_EQ(vulkan::missing_features(vulkan::features_of_chain(chain)), "");
+}
+
+TEST(HostBufferAccesses, are_those_of_buffers) {
+  for (std::uint32_t a = 0; a <= static_cast<std::uint32_t>(Access::present); ++a) {
+    const auto access = static_cast<Access>(a);
+    if (access != Access::none && !fits_buffer(access)) {
+      EXPECT_ASSERT((void)host_buffer_access(access), "buffers can have");
+      continue;
+    }
+    EXPECT_EQ(host_buffer_access(access).stages == VK_PIPELINE_STAGE_2_NONE, access == Access::none) << name_of(access);
+  }
+  EXPECT_EQ(host_buffer_access(Access::vertex_input).access,
+            VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT | VK_ACCESS_2_INDEX_READ_BIT);
+  EXPECT_EQ(native_format(Format::d32_float), VK_FORMAT_D32_SFLOAT);
 }
 
 TEST(HostImageLayouts, agree_with_the_layouts_that_accesses_share) {

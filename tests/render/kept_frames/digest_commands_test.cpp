@@ -10,6 +10,7 @@
 #include <cstring>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -53,6 +54,8 @@ class NoCommands final : public gpu::CommandList {
   void draw_indexed_indirect(gpu::BufferHandle, std::uint64_t, std::uint32_t) override {}
   void dispatch(std::uint32_t, std::uint32_t, std::uint32_t) override {}
   void dispatch_indirect(gpu::BufferHandle, std::uint64_t) override {}
+  void* begin_native(std::optional<std::uint64_t>) override { return nullptr; }
+  void end_native() override {}
 };
 
 class DigestCommandsTest : public testing::Test {
@@ -88,13 +91,14 @@ class DigestCommandsTest : public testing::Test {
     std::memset(bytes.data() + offset, value, end - offset);
     return made;
   }
-  FrameDigest digest(const Recorded& record) {
+  FrameDigest digest(const Recorded& record) { return known_digest(record).value(); }
+  std::optional<FrameDigest> known_digest(const Recorded& record) {
     NoCommands next;
     DigestCommands commands(next, *device_, [this](gpu::ImageHandle image, gpu::BufferHandle buffer) {
       return image ? image == kept_image_ : buffer == kept_buffer_;
     });
     record(commands);
-    return commands.digest().value();
+    return commands.digest();
   }
   void expect_all_differ(const std::vector<Recorded>& variants) {
     for (std::size_t i = 0; i < variants.size(); ++i) {
@@ -275,6 +279,19 @@ TEST_F(DigestCommandsTest, places_of_what_outlives_frames_are_no_inputs) {
   EXPECT_NE(kept.whole, swapped.whole);
   EXPECT_NE(image_before, kept_image_);
   EXPECT_NE(buffer_before, kept_buffer_);
+}
+
+TEST_F(DigestCommandsTest, native_commands_count_by_their_revision_and_are_unknown_without_one) {
+  const auto native = [](std::optional<std::uint64_t> revision) -> Recorded {
+    return [=](gpu::CommandList& commands) {
+      commands.dispatch(1, 1, 1);
+      static_cast<void>(commands.begin_native(revision));
+      commands.end_native();
+    };
+  };
+  const Recorded none = [](gpu::CommandList& commands) { commands.dispatch(1, 1, 1); };
+  expect_all_differ({none, native(0), native(1), native(2)});
+  EXPECT_EQ(known_digest(native({})), std::nullopt);
 }
 
 TEST(KeptFramesTest, inputs_repeat_and_places_may_alternate) {

@@ -4,6 +4,7 @@
 // Command lists of a real device as careless passes record them: each kind of misuse, and the sentence that names it.
 #include <array>
 
+#include "engine/gpu/vulkan_interop.h"
 #include "shaders/gpu_test/shaders.h"
 #include "tests/support/expect_assert.h"
 #include "tests/support/gpu_device.h"
@@ -103,6 +104,46 @@ TEST_F(CommandMisuse, other_work_while_rendering) {
   EXPECT_ASSERT(commands_->dispatch(1, 1, 1), "a dispatch must not come between begin_rendering and end_rendering");
   EXPECT_ASSERT(commands_->fill_buffer(buffer_, 0, 16, 0), "a fill must not come between begin_rendering");
   EXPECT_ASSERT((void)device_->submit_frame(), "rendering is ended before the frame is submitted");
+}
+
+TEST_F(CommandMisuse, gloams_commands_amid_and_after_native_ones) {
+  begin_rendering();
+  commands_->bind_pipeline(triangle_);
+  {
+    const NativeCommands native = native_commands(*commands_);
+    EXPECT_NE(native.get(), VkCommandBuffer{});
+    EXPECT_ASSERT(commands_->bind_pipeline(triangle_),
+                  "bind_pipeline must wait until the host's native commands have ended");
+    EXPECT_ASSERT(commands_->draw(3, 1, 0, 0), "a pipeline is bound first");
+    EXPECT_ASSERT(commands_->bind_indices(buffer_, 0), "bind_indices must wait");
+    EXPECT_ASSERT(commands_->set_viewport(0, 0, 1, 1), "set_viewport must wait");
+    EXPECT_ASSERT(commands_->set_scissor(0, 0, 1, 1), "set_scissor must wait");
+    EXPECT_ASSERT(commands_->end_rendering(), "end_rendering must wait");
+    EXPECT_ASSERT(commands_->fill_buffer(buffer_, 0, 16, 0), "a fill must wait");
+    EXPECT_ASSERT((void)native_commands(*commands_), "native_commands must wait");
+    EXPECT_ASSERT((void)device_->submit_frame(), "native commands are ended before the frame is submitted");
+  }
+  EXPECT_ASSERT(commands_->draw(3, 1, 0, 0), "a pipeline is bound first");
+  EXPECT_ASSERT(commands_->bind({}), "a pipeline is bound first");
+}
+
+TEST_F(CommandMisuse, imported_buffers_that_are_not_described) {
+  const VkBuffer theirs = native_buffer(*device_, buffer_);
+  const BufferDesc desc{.name = "lent", .module = "test", .size = 1024, .usage = storage};
+  EXPECT_ASSERT((void)import_buffer(*device_, VK_NULL_HANDLE, desc), "a buffer to import must exist");
+  BufferDesc wrong = desc;
+  wrong.size = 0;
+  EXPECT_ASSERT((void)import_buffer(*device_, theirs, wrong), "states its size and usage");
+  wrong = desc;
+  wrong.memory = MemoryKind::upload;
+  EXPECT_ASSERT((void)import_buffer(*device_, theirs, wrong), "gloam does not map a host's buffer");
+  const BufferHandle imported = import_buffer(*device_, theirs, desc);
+  EXPECT_TRUE(device_->is_foreign(imported));
+  EXPECT_FALSE(device_->is_foreign(buffer_));
+  EXPECT_ASSERT((void)device_->mapped(imported), "only upload and readback buffers are mapped");
+  EXPECT_ASSERT(commands_->fill_buffer(imported, 1024, 16, 0), "a range stays inside buffer \"lent\"");
+  device_->destroy(imported);
+  commands_->fill_buffer(buffer_, 0, 16, 0);  // it is still there
 }
 
 TEST_F(CommandMisuse, objects_that_are_gone_or_too_small) {

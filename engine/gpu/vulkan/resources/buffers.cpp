@@ -25,7 +25,8 @@ VkBufferCreateInfo create_info(const BufferDesc& desc) {
 }  // namespace
 
 Buffers::~Buffers() {
-  for (const Buffer& b : table_.remove_all()) context_.vk.vkDestroyBuffer(context_.device, b.buffer, nullptr);
+  for (const Buffer& b : table_.remove_all())
+    if (b.memory) context_.vk.vkDestroyBuffer(context_.device, b.buffer, nullptr);
 }
 
 Status Buffers::check(const BufferDesc& desc) const {
@@ -88,8 +89,19 @@ Result<MemoryNeeds> Buffers::needs(const BufferDesc& desc) const {
   return needs_in_block(context_, requirements.memoryRequirements);
 }
 
+BufferHandle Buffers::adopt(const BufferDesc& desc, VkBuffer buffer) {
+  GLOAM_ASSERT(desc.size > 0 && desc.usage != BufferUsage::none,
+               "the description of a host's buffer states its size and usage");
+  GLOAM_ASSERT(desc.memory == MemoryKind::device, "gloam does not map a host's buffer: its memory kind is device");
+  Buffer adopted;
+  adopted.desc = desc;
+  adopted.buffer = buffer;
+  return table_.insert(std::move(adopted));
+}
+
 void Buffers::destroy(BufferHandle handle) {
   Buffer buffer = table_.remove(handle);
+  if (!buffer.memory) return;
   graveyard_.bury([this, vk_buffer = buffer.buffer, memory = std::move(buffer.memory)] {
     context_.vk.vkDestroyBuffer(context_.device, vk_buffer, nullptr);
   });
@@ -97,7 +109,7 @@ void Buffers::destroy(BufferHandle handle) {
 
 std::span<std::byte> Buffers::mapped(BufferHandle handle) const {
   const Buffer& buffer = get(handle);
-  GLOAM_ASSERT(buffer.memory->mapped != nullptr, "only upload and readback buffers are mapped");
+  GLOAM_ASSERT(buffer.memory && buffer.memory->mapped != nullptr, "only upload and readback buffers are mapped");
   return {buffer.memory->mapped, static_cast<std::size_t>(buffer.desc.size)};
 }
 

@@ -16,7 +16,7 @@ namespace gloam::gpu::vulkan {
 struct Buffer {
   BufferDesc desc;
   VkBuffer buffer = VK_NULL_HANDLE;
-  AllocationOwner memory;
+  AllocationOwner memory;  ///< null: an adopted buffer, which is not destroyed here
 };
 
 /// Creates, stores and destroys buffers. Thread-safe.
@@ -31,6 +31,8 @@ class Buffers {
   [[nodiscard]] Result<BufferHandle> create_in(const BufferDesc& desc, const AllocationOwner& block,
                                                std::uint64_t offset);
   [[nodiscard]] Result<MemoryNeeds> needs(const BufferDesc& desc) const;
+  /// Adds a buffer owned by a host. Destroying the handle does not destroy the buffer.
+  [[nodiscard]] BufferHandle adopt(const BufferDesc& desc, VkBuffer buffer);
   void destroy(BufferHandle handle);
   [[nodiscard]] const Buffer& get(BufferHandle handle) const { return table_.get(handle); }
   [[nodiscard]] std::span<std::byte> mapped(BufferHandle handle) const;

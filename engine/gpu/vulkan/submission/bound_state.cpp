@@ -15,7 +15,28 @@ std::string lacking(const Pipeline& pipeline, const std::string& what) {
 
 }  // namespace
 
+void BoundState::begin_native() {
+  check_own("native_commands");
+  const bool rendering = rendering_;
+  *this = {};
+  rendering_ = rendering;
+  native_ = true;
+}
+
+void BoundState::end_native() { native_ = false; }
+
+void BoundState::bind_vertex_stream(std::uint32_t stream) {
+  check_own("bind_vertex_stream");
+  streams_ |= 1u << stream;
+}
+
+void BoundState::bind_indices() {
+  check_own("bind_indices");
+  indices_ = true;
+}
+
 void BoundState::bind_pipeline(const Pipeline& pipeline) {
+  check_own("bind_pipeline");
   layout_ = pipeline.layout;
   draws_ = pipeline.bind_point == VK_PIPELINE_BIND_POINT_GRAPHICS;
   used_sets_ = pipeline.used_sets;
@@ -34,6 +55,7 @@ void BoundState::begin_rendering() {
 }
 
 void BoundState::end_rendering() {
+  check_own("end_rendering");
   GLOAM_ASSERT(rendering_, "end_rendering needs begin_rendering before it");
   rendering_ = false;
 }
@@ -64,7 +86,12 @@ void BoundState::check_draw(const Pipelines& pipelines, PipelineHandle pipeline,
   GLOAM_ASSERT(!indexed || indices_, lacking(pipelines.get(pipeline), "indices are"));
 }
 
+void BoundState::check_own(std::string_view command) const {
+  GLOAM_ASSERT(!native_, std::string(command) + " must wait until the host's native commands have ended");
+}
+
 void BoundState::check_outside(std::string_view command) const {
+  check_own(command);
   GLOAM_ASSERT(!rendering_, std::string(command) + " must not come between begin_rendering and end_rendering");
 }
 

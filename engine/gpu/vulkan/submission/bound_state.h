@@ -22,15 +22,21 @@ class BoundState {
   void bind_pipeline(const Pipeline& pipeline);
   /// For the bound pipeline.
   void bind_set(std::uint32_t set);
-  void bind_vertex_stream(std::uint32_t stream) { streams_ |= 1u << stream; }
-  void bind_indices() { indices_ = true; }
+  void bind_vertex_stream(std::uint32_t stream);
+  void bind_indices();
   void begin_rendering();
   void end_rendering();
   [[nodiscard]] bool rendering() const { return rendering_; }
+  /// The host records into the same command buffer (native_commands). Afterwards nothing is bound.
+  void begin_native();
+  void end_native();
+  [[nodiscard]] bool native() const { return native_; }
   /// `pipelines`: for the sentence.
   void check_dispatch(const Pipelines& pipelines, PipelineHandle pipeline) const;
   void check_draw(const Pipelines& pipelines, PipelineHandle pipeline, bool indexed) const;
-  /// Asserts that a command does not come inside rendering. command: "a copy".
+  /// Asserts that the host is not recording. command: "a copy".
+  void check_own(std::string_view command) const;
+  /// Asserts the same, and that a command does not come inside rendering.
   void check_outside(std::string_view command) const;
 
  private:
@@ -45,6 +51,7 @@ class BoundState {
   std::uint32_t streams_ = 0;                                ///< bit i: stream i is bound
   bool indices_ = false;
   bool rendering_ = false;
+  bool native_ = false;  ///< the host is recording
 };
 
 }  // namespace gloam::gpu::vulkan

@@ -40,6 +40,8 @@ class VulkanCommandList final : public CommandList {
   void forget_barriers();
   /// Whether the last command came between begin_rendering and end_rendering.
   [[nodiscard]] bool rendering() const { return bound_.rendering(); }
+  /// Whether the host is recording (native_commands).
+  [[nodiscard]] bool native() const { return bound_.native(); }
   /// The first error of this frame's recording, if any.
   [[nodiscard]] const std::optional<Error>& fault() const { return fault_; }
 
@@ -81,6 +83,8 @@ class VulkanCommandList final : public CommandList {
   void draw_indexed_indirect(BufferHandle buffer, std::uint64_t offset, std::uint32_t draw_count) override;
   void dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z) override;
   void dispatch_indirect(BufferHandle buffer, std::uint64_t offset) override;
+  void* begin_native(std::optional<std::uint64_t> revision) override;
+  void end_native() override;
 
  private:
   void check_range(BufferHandle buffer, std::uint64_t offset, std::uint64_t size) const;
@@ -102,6 +106,8 @@ class VulkanCommandList final : public CommandList {
   VkCommandBuffer commands_ = VK_NULL_HANDLE;
   PipelineHandle pipeline_;
   BoundState bound_;
+  VkViewport viewport_ = {};  ///< as set last, like scissor_
+  VkRect2D scissor_ = {};
   std::optional<Error> fault_;
   /// Image::access before each image barrier of the frame, in order.
   std::vector<std::pair<ImageHandle, Subresources<Access>>> earlier_accesses_;

@@ -73,16 +73,19 @@ void VulkanCommandList::end_rendering() {
 }
 
 void VulkanCommandList::set_viewport(float x, float y, float width, float height) {
-  const VkViewport viewport = {x, y + height, width, -height, 0.0f, 1.0f};
-  context_.vk.vkCmdSetViewport(commands_, 0, 1, &viewport);
+  bound_.check_own("set_viewport");
+  viewport_ = {x, y + height, width, -height, 0.0f, 1.0f};
+  context_.vk.vkCmdSetViewport(commands_, 0, 1, &viewport_);
 }
 
 void VulkanCommandList::set_scissor(std::int32_t x, std::int32_t y, std::uint32_t width, std::uint32_t height) {
-  const VkRect2D scissor = {{x, y}, {width, height}};
-  context_.vk.vkCmdSetScissor(commands_, 0, 1, &scissor);
+  bound_.check_own("set_scissor");
+  scissor_ = {{x, y}, {width, height}};
+  context_.vk.vkCmdSetScissor(commands_, 0, 1, &scissor_);
 }
 
 void VulkanCommandList::set_depth_bias(float constant, float slope) {
+  bound_.check_own("set_depth_bias");
   context_.vk.vkCmdSetDepthBias(commands_, constant, 0.0f, slope);
 }
 
@@ -93,8 +96,8 @@ const Pipeline& VulkanCommandList::bound_pipeline() const {
 
 void VulkanCommandList::bind_pipeline(PipelineHandle handle) {
   const Pipeline& pipeline = pipelines_.get(handle);
-  pipeline_ = handle;
   bound_.bind_pipeline(pipeline);
+  pipeline_ = handle;
   context_.vk.vkCmdBindPipeline(commands_, pipeline.bind_point, pipeline.object->get());
 }
 
@@ -197,6 +200,20 @@ void VulkanCommandList::dispatch_indirect(BufferHandle buffer, std::uint64_t off
   bound_.check_dispatch(pipelines_, pipeline_);
   check_range(buffer, offset, sizeof(VkDispatchIndirectCommand));
   context_.vk.vkCmdDispatchIndirect(commands_, buffers_.get(buffer).buffer, offset);
+}
+
+void* VulkanCommandList::begin_native(std::optional<std::uint64_t>) {
+  GLOAM_ASSERT(frames_.recording(), "native commands are recorded between begin_frame and submit_frame");
+  bound_.begin_native();
+  pipeline_ = {};
+  return commands_;
+}
+
+void VulkanCommandList::end_native() {
+  bound_.end_native();
+  if (!bound_.rendering()) return;  // begin_rendering sets both
+  context_.vk.vkCmdSetViewport(commands_, 0, 1, &viewport_);
+  context_.vk.vkCmdSetScissor(commands_, 0, 1, &scissor_);
 }
 
 }  // namespace gloam::gpu::vulkan

@@ -4,6 +4,8 @@
 
 #include <array>
 
+#include "engine/gpu/vulkan/device.h"
+#include "engine/gpu/vulkan_interop.h"
 #include "shaders/gpu_test/shaders.h"
 #include "tests/gpu/vulkan/device_fixture.h"
 
@@ -198,6 +200,35 @@ TEST_F(CommandLists, indexed_and_indirect_draws_take_their_vertices_and_the_scis
   EXPECT_EQ(at(texels, 2, kSize - 3), (Texel{255, 0, 0, 255}));
   EXPECT_EQ(at(texels, kSize / 2 + 1, kSize - 3), (Texel{0, 0, 0, 255}));  // green tint on red, in the small viewport
   EXPECT_EQ(at(texels, kSize - 2, 2), kClear);
+}
+
+TEST_F(CommandLists, native_commands_leave_viewport_and_scissor_as_they_were) {
+  const auto pipeline = test::value_of(device().create_pipeline(desc()));
+  const ResourceSetHandle set = make_set(pipeline);
+  const BufferHandle vertices = test::make_upload(device(), lower_left(0.5f, {255, 0, 0, 255}));
+  const vulkan::DeviceFunctions& vk = dynamic_cast<vulkan::VulkanDevice&>(device()).context().vk;
+  BufferHandle read;
+  test::run_frame(device(), [&](CommandList& commands) {
+    begin(commands);
+    commands.set_viewport(0, 0, kSize / 2, kSize);
+    commands.set_scissor(0, kSize / 2, kSize, kSize / 2);
+    {
+      const NativeCommands native = native_commands(commands);
+      const VkViewport viewport = {3, 3, 2, 2, 0.0f, 0.5f};
+      const VkRect2D scissor = {{1, 1}, {1, 1}};
+      vk.vkCmdSetViewport(native.get(), 0, 1, &viewport);
+      vk.vkCmdSetScissor(native.get(), 0, 1, &scissor);
+    }
+    bind(commands, pipeline, set, 0);
+    commands.bind_vertex_stream(0, vertices, 0);
+    commands.draw(3, 1, 0, 0);
+    commands.end_rendering();
+    read = read_layer(commands, color_, Access::color_target);
+  });
+  const auto texels = test::items_of<Texel>(device(), read);
+  EXPECT_EQ(at(texels, 2, kSize - 3), (Texel{255, 0, 0, 255}));
+  EXPECT_EQ(at(texels, kSize / 2 + 1, kSize - 3), kClear) << "the viewport ends before it";
+  EXPECT_EQ(at(texels, 0, kSize / 2 - 1), kClear) << "the scissor begins below it";
 }
 
 TEST_F(CommandLists, a_draw_without_indices_takes_its_counts_from_a_buffer) {

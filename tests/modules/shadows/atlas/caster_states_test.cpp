@@ -135,6 +135,21 @@ TEST(CasterHistory, casters_rest_that_have_not_changed_for_long) {
   EXPECT_FALSE(history.rests(2)) << "unsteady ones never do";
 }
 
+TEST(SourceStates, sources_of_which_nothing_is_told_are_unsteady_and_take_no_turns) {
+  CasterSource told, untold, turning;
+  told.content_hash = 7;
+  turning.content_hash = 7;
+  for (CasterSource* source : {&untold, &turning}) source->turns = 4;
+  turning.moving = true;
+  const CasterSource* sources[] = {&told, &untold, &turning};
+  const std::vector<CasterState> states = source_states(sources);
+  EXPECT_FALSE(states[0].unsteady);
+  EXPECT_TRUE(states[1].unsteady);
+  EXPECT_EQ(states[1].box.turns, 1u);
+  EXPECT_TRUE(states[2].unsteady);
+  EXPECT_EQ(states[2].box.turns, 4u);
+}
+
 TEST(CasterStates, depend_on_the_pose_and_are_steady_where_it_is_known) {
   const auto executor = make_serial_executor();
   GpuPrimitive primitive;

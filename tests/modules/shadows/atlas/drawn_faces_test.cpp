@@ -125,6 +125,19 @@ TEST_F(DrawnFaces, a_source_that_changes_comes_or_goes_costs_its_rectangle) {
   }
 }
 
+TEST_F(DrawnFaces, a_source_of_which_nothing_is_told_is_drawn_in_every_frame) {
+  source(kLow, kHigh).content_hash = 0;
+  frames(20);
+  for (int i = 0; i < 3; ++i) {
+    const DrawnMaps maps = frame();
+    ASSERT_EQ(maps.faces.size(), 1u);
+    EXPECT_EQ(maps.faces[0].face.light, kSpot);
+    ASSERT_EQ(maps.faces[0].regions.size(), 1u);
+    expect_around(maps.faces[0].regions[0].texels, kLow, kHigh);
+    EXPECT_EQ(maps.faces[0].regions[0].sources.size(), 1u);
+  }
+}
+
 TEST_F(DrawnFaces, bounds_that_move_cost_the_old_and_the_new_rectangle) {
   CasterSource& field = source(kLow, kHigh);
   frames(2);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "engine/ecs/view.h"
+#include "modules/closeups/components.h"
 #include "modules/shadows/outputs.h"
 #include "tests/modules/shadows/support/blades_module.h"
 #include "tests/modules/shadows/support/held_faces.h"
@@ -281,6 +282,38 @@ TEST_F(CasterSources, blades_that_rest_are_cached_and_drawn_again_when_their_has
   const Faces after = faces_now();
   EXPECT_FALSE(after == before);
   EXPECT_TRUE(after == faces_from_scratch());
+}
+
+TEST_F(CasterSources, of_blades_about_which_nothing_is_told_neither_maps_nor_close_ups_are_kept) {
+  set("shadows.mode", "deferred");
+  set("shadows.visibility_bits", "8");
+  set("closeups.max_pairs", "4");
+  resting_boxes();
+  const Entity subject = box(dvec3(0.1, -0.1, 0.7), dvec3(0.2, 0.3, 0.1));
+  world.add(subject, CloseupSubject{true});
+  test::BladeField& row = field(dvec3(0.1, -0.2, 0.7), 3, 0.05f, 0.02f, 0.2f);
+  row.entity = subject;
+  lamp_of("spot", LightKind::spot, dvec3(0.2, 0.1, 2.5), 512);
+  for (int i = 0; i < 4; ++i) draw();
+  EXPECT_EQ(counter("closeups.pairs"), 1.0);
+  EXPECT_EQ(counter("closeups.maps_drawn"), 0.0) << "it rests, and its hash says so";
+  row.told = false;
+  for (int i = 0; i < 4; ++i) {
+    blades_->recorded = 0;
+    draw();
+    EXPECT_EQ(counter("closeups.maps_drawn"), 1.0) << i;
+    EXPECT_GT(blades_->recorded, 0) << i;
+  }
+  EXPECT_EQ(map_draws(), 0u) << "the light's own map leaves the subject out";
+  row.entity = kNoEntity;
+  for (int i = 0; i < 4; ++i) {
+    draw();
+    EXPECT_EQ(counter("shadows.faces_drawn"), 1.0) << i;
+  }
+  row.resting[1].tip.x += 0.1f;  // nobody tells
+  draw();
+  const Faces changed = faces_now();
+  EXPECT_TRUE(changed == faces_from_scratch());
 }
 
 TEST_F(CasterSources, swaying_blades_leave_a_spots_map_as_drawn_from_scratch) {

@@ -66,7 +66,7 @@ void BladesModule::announce(FrameBuilder& frame) {
     CasterSource source;
     source.entity = field.entity;
     source.bounds = field.bounds();
-    source.content_hash = hash_of(field);
+    source.content_hash = field.told ? hash_of(field) : 0;
     source.moving = field.moving;
     source.declare_reads = [this, blades](PassBuilder& pass) {
       ++declared;

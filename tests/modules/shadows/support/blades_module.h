@@ -22,6 +22,7 @@ struct BladeField {
   float reach_m = 0.0f;  ///< of the tips along X
   bool moving = false;   ///< CasterSource::moving
   Entity entity = kNoEntity;
+  bool told = true;  ///< false: CasterSource::content_hash is 0
 
   /// The corners of a blade in the world, computed in double.
   struct Triangle {
