@@ -6,6 +6,7 @@ The quick form of headers_alone.py, which compiles each header: this one reads t
 and kConstants of the project, names of the standard library (the table in headers_alone.py), and the prefixes glm::, Vk, TEST and
 nlohmann::. A name counts as declared by every header that declares anything of that name. Functions of the project are not checked:
 of 21 faults made by removing an include, this check finds 19."""
+import posixpath
 import re
 import sys
 from collections import defaultdict
@@ -37,7 +38,9 @@ class Headers:
         for name in self.names:
             raw = source_text.read(root, name)
             self.text[name] = source_text.without_comments(raw, blank_strings=True)
-            self.includes[name] = {path for _, path, _ in include_arrows.includes(raw)}
+            # Paths are from the root, or beside the header.
+            paths = {path for _, path, _ in include_arrows.includes(raw)}
+            self.includes[name] = paths | {posixpath.join(posixpath.dirname(name), path) for path in paths if "/" not in path}
             for word in declared(self.text[name]):
                 self.declares[word].add(name)
 
