@@ -17,6 +17,10 @@ class LogSink {
  public:
   virtual ~LogSink() = default;
   virtual void write(LogLevel level, std::string_view line) = 0;
+  /// The same with the part of gloam that writes: "gpu", "validation", "scene", "render", or the name of a module.
+  /// gloam always calls this one; a sink that does not override it gets the line in write(). A host filters by category
+  /// here.
+  virtual void write_from(std::string_view /*category*/, LogLevel level, std::string_view line) { write(level, line); }
 
   void debug(std::string_view line) { write(LogLevel::debug, line); }
   void info(std::string_view line) { write(LogLevel::info, line); }
@@ -26,6 +30,22 @@ class LogSink {
 
 /// A sink that drops every message.
 LogSink& null_log();
+
+/// Passes every line on to another sink, with a category.
+class LogCategory final : public LogSink {
+ public:
+  /// sink: must outlive this object.
+  LogCategory(LogSink& sink, std::string_view category) : sink_(&sink), category_(category) {}
+  void write(LogLevel level, std::string_view line) override { sink_->write_from(category_, level, line); }
+  /// A line that has a category keeps it.
+  void write_from(std::string_view category, LogLevel level, std::string_view line) override {
+    sink_->write_from(category, level, line);
+  }
+
+ private:
+  LogSink* sink_;
+  std::string category_;
+};
 
 /// Passes every line to a function, which must be safe to call from any thread.
 class FunctionLog final : public LogSink {

@@ -3,11 +3,14 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <mutex>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "engine/core/profiler.h"
 
 namespace gloam {
 
@@ -20,11 +23,13 @@ struct Zone {
   std::uint32_t thread = 0;  ///< small number, assigned in order of first appearance
 };
 
-/// Collects zones from any thread. Code that may be measured takes a pointer to it; a null pointer records nothing.
-class ZoneRecorder {
+/// Collects zones from any thread.
+class ZoneRecorder final : public Profiler {
  public:
   ZoneRecorder();
   [[nodiscard]] std::uint64_t now_ns() const;
+  void begin_zone(std::string_view name, std::string_view module) override;
+  void end_zone() override;
   void record(std::string_view name, std::string_view module, std::uint64_t begin_ns, std::uint64_t end_ns);
   /// Returns and removes the zones recorded since the last call, sorted by begin time.
   [[nodiscard]] std::vector<Zone> take();
@@ -32,27 +37,11 @@ class ZoneRecorder {
  private:
   std::chrono::steady_clock::time_point start_;
   std::mutex mutex_;
+  [[nodiscard]] std::size_t number_of_this_thread();
+
   std::vector<Zone> zones_;
   std::vector<std::uint64_t> threads_;
-};
-
-/// Records a zone from its construction to its destruction. `recorder` (may be null), `name` and `module` must outlive
-/// it.
-class ScopedZone {
- public:
-  ScopedZone(ZoneRecorder* recorder, std::string_view name, std::string_view module)
-      : recorder_(recorder), name_(name), module_(module), begin_ns_(recorder != nullptr ? recorder->now_ns() : 0) {}
-  ~ScopedZone() {
-    if (recorder_ != nullptr) recorder_->record(name_, module_, begin_ns_, recorder_->now_ns());
-  }
-  ScopedZone(const ScopedZone&) = delete;
-  ScopedZone& operator=(const ScopedZone&) = delete;
-
- private:
-  ZoneRecorder* recorder_;
-  std::string_view name_;
-  std::string_view module_;
-  std::uint64_t begin_ns_;
+  std::vector<std::vector<Zone>> open_;  ///< by thread: zones that have not ended, outermost first
 };
 
 }  // namespace gloam

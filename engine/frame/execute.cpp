@@ -166,6 +166,11 @@ std::vector<GpuFrameTimes> FrameGraph::take_times() {
   return state_->timer.take();
 }
 
+std::vector<GpuFrameTimes> FrameGraph::take_times_for_profiler() {
+  state_->timer.refresh(state_->device);
+  return state_->timer.take_for_profiler();
+}
+
 void FrameGraph::free_idle_memory() {
   // A plan whose frame has not been declared anew belongs to the declaration that is still there.
   state_->cache.free_memory_except(state_->plan, state_->declaration);

@@ -161,6 +161,8 @@ class FrameGraph {
   [[nodiscard]] double gpu_ms() const;
   /// Every frame that has completed since the last call, oldest first; at most the last 4.
   [[nodiscard]] std::vector<GpuFrameTimes> take_times();
+  /// The same for a second caller, who takes what the first one takes, too: from its first call on.
+  [[nodiscard]] std::vector<GpuFrameTimes> take_times_for_profiler();
   [[nodiscard]] std::uint64_t plans_compiled() const;
   [[nodiscard]] std::uint64_t plan_hash() const;
   /// One line per pass: name, module, reads, writes, and after compile its barriers or "culled".

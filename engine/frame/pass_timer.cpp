@@ -64,6 +64,9 @@ void PassTimer::refresh(gpu::Device& device) {
     newest_ = times_of(record, timestamps);
     if (finished_.size() == kFramesKept) finished_.erase(finished_.begin());
     finished_.push_back(newest_);
+    if (!has_profiler_) continue;
+    if (for_profiler_.size() == kFramesKept) for_profiler_.erase(for_profiler_.begin());
+    for_profiler_.push_back(newest_);
   }
 }
 
@@ -94,5 +97,10 @@ GpuFrameTimes PassTimer::times_of(const FrameRecord& record, const std::vector<s
 }
 
 std::vector<GpuFrameTimes> PassTimer::take() { return std::exchange(finished_, {}); }
+
+std::vector<GpuFrameTimes> PassTimer::take_for_profiler() {
+  has_profiler_ = true;
+  return std::exchange(for_profiler_, {});
+}
 
 }  // namespace gloam::frame

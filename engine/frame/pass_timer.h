@@ -35,6 +35,8 @@ class PassTimer {
   [[nodiscard]] const GpuFrameTimes& newest() const { return newest_; }
   /// The completed frames since the last call, oldest first.
   [[nodiscard]] std::vector<GpuFrameTimes> take();
+  /// The same for a second caller, from its first call on.
+  [[nodiscard]] std::vector<GpuFrameTimes> take_for_profiler();
 
  private:
   struct PassRecord {
@@ -59,6 +61,8 @@ class PassTimer {
   std::uint32_t pass_begin_ = kNone;  ///< timestamp with which the current pass begins
   GpuFrameTimes newest_;
   std::vector<GpuFrameTimes> finished_;  ///< not taken yet, oldest first
+  std::vector<GpuFrameTimes> for_profiler_;
+  bool has_profiler_ = false;
 };
 
 }  // namespace gloam::frame

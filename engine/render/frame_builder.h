@@ -66,7 +66,8 @@ class FrameBuilder {
         scene_(scene),
         draws_(draws),
         view_index_(view_index),
-        shared_(shared) {}
+        shared_(shared),
+        log_(services.log, "render") {}
   FrameBuilder(const FrameBuilder&) = delete;
   FrameBuilder& operator=(const FrameBuilder&) = delete;
 
@@ -101,7 +102,12 @@ class FrameBuilder {
   /// The module that is adding passes: passes, images and pipelines made by name belong to it. "engine" outside of
   /// Module::add_passes.
   [[nodiscard]] std::string_view module() const { return module_; }
-  void set_module(std::string_view name) { module_ = name; }
+  void set_module(std::string_view name) {
+    module_ = name;
+    log_ = LogCategory(services_.log, name);
+  }
+  /// FrameServices::log with the module as its category.
+  [[nodiscard]] LogSink& log() { return log_; }
 
   /// Gives the frame up: it is not submitted, and Renderer::render returns the first error that was passed.
   void fail(Error error) {
@@ -245,6 +251,7 @@ class FrameBuilder {
   std::string_view visualizer_ = "none";
   float heat_range_ = 1.0f;
   std::string_view module_ = "engine";
+  LogCategory log_;
   Status status_;
   gpu::Binding::BufferRange view_range_;
   Board board_;

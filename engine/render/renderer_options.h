@@ -11,6 +11,7 @@
 namespace gloam {
 
 class PipelineProgress;
+class Profiler;
 class ZoneRecorder;
 namespace gpu {
 class Device;
@@ -30,6 +31,7 @@ struct RendererOptions {
   JobExecutor* executor = nullptr;
   LogSink* log = nullptr;
   ZoneRecorder* zones = nullptr;         ///< may be null
+  Profiler* profiler = nullptr;          ///< may be null; must outlive the renderer's last call
   PipelineProgress* progress = nullptr;  ///< told of the pipelines that frames wait for; may be null
   ModuleList modules;                    ///< in the order of the module graph
   Readiness readiness = Readiness::wait;

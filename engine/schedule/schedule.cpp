@@ -17,7 +17,7 @@ namespace gloam {
 struct Schedule::Run {
   World& world;
   JobExecutor& executor;
-  ZoneRecorder* zones = nullptr;
+  Profiler* zones = nullptr;
   ViewId view;
   const CheckedWorld* checker = nullptr;  ///< null: unchecked
 };
@@ -104,12 +104,12 @@ void Schedule::run_system(System& system, const Run& run) {
   system.run({run.world, executor, system.commands, run.view});
 }
 
-void Schedule::run(Stage stage, World& world, JobExecutor& executor, ZoneRecorder* zones) {
+void Schedule::run(Stage stage, World& world, JobExecutor& executor, Profiler* zones) {
   GLOAM_ASSERT(stage == Stage::world, "run() is for Stage::world; a view's stage is run by run_view()");
   run_stage(stage, {world, executor, zones, {}, nullptr});
 }
 
-void Schedule::run_view(ViewId view, World& world, JobExecutor& executor, ZoneRecorder* zones) {
+void Schedule::run_view(ViewId view, World& world, JobExecutor& executor, Profiler* zones) {
   run_stage(Stage::view, {world, executor, zones, view, nullptr});
 }
 

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/core/zones.h"
+#include "engine/core/profiler.h"
 #include "engine/ecs/world.h"
 #include "engine/jobs/executor.h"
 #include "engine/schedule/system.h"
@@ -63,9 +63,9 @@ class Schedule {
   /// Runs the systems of Stage::world (the only stage allowed here). `zones` receives one zone per system; may be null.
   /// If systems throw, rethrows the exception of the one registered first: systems that wait for a failed one are
   /// skipped, all others run, and the commands of the stage are dropped.
-  void run(Stage stage, World& world, JobExecutor& executor, ZoneRecorder* zones = nullptr);
+  void run(Stage stage, World& world, JobExecutor& executor, Profiler* zones = nullptr);
   /// As run(), for the systems of Stage::view and this view.
-  void run_view(ViewId view, World& world, JobExecutor& executor, ZoneRecorder* zones = nullptr);
+  void run_view(ViewId view, World& world, JobExecutor& executor, Profiler* zones = nullptr);
 
   /// The name of the system whose exception the last run() or run_view() has rethrown; empty if it threw none.
   [[nodiscard]] std::string_view failed_system() const { return failed_system_; }

@@ -193,9 +193,8 @@ void add_grass_passes(FrameBuilder& frame, GrassWorlds& worlds) {
   const std::uint64_t number = world_id(world);
   GrassBladeRows& rows = *world.resource<GrassWorld>().rows;
   if (pack_changed_rows(world, field, frame.services().executor, rows))
-    for (const std::string& note : field.notes) worlds.notes_log.warning(frame.services().log, note);
-  for (const std::string& fault : world.resource<BladeTextures>().faults)
-    worlds.notes_log.warning(frame.services().log, fault);
+    for (const std::string& note : field.notes) worlds.notes_log.warning(frame.log(), note);
+  for (const std::string& fault : world.resource<BladeTextures>().faults) worlds.notes_log.warning(frame.log(), fault);
 
   const GrassStoreInput input{.patches = field.patches,
                               .plantings = field.plantings,

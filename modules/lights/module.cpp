@@ -107,7 +107,7 @@ class LightsModule final : public Module {
     if (phase != PassPhase::lists) return;
     const auto& visible = frame.world().view_resource<VisibleLights>(frame.view().id);
     if (visible.dropped > 0) {
-      once_log_.warning(frame.services().log, "lights.dropped",
+      once_log_.warning(frame.log(), "lights.dropped",
                         "more lights are visible than fit (" + std::to_string(GLOAM_MAX_LOCAL_LIGHTS) + " local, " +
                             std::to_string(GLOAM_MAX_DIRECTIONAL_LIGHTS) + " directional): the " +
                             std::to_string(visible.dropped) + " least important are left out (counter lights.dropped)");

@@ -206,7 +206,7 @@ class ShadowsModule final : public Module {
   void warn(FrameBuilder& frame) {
     if (frame.view().is_companion()) return;  // nobody asked for its picture
     const ViewFaces& view_faces = frame.world().view_resource<ViewFaces>(frame.view().id);
-    LogSink& log = frame.services().log;
+    LogSink& log = frame.log();
     if (view_faces.faces_shrunk > 0)
       once_log_.warning(log,
                         "shadow maps are smaller than they should be: the atlas is full (shadows.atlas, counter "

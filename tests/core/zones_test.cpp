@@ -8,6 +8,8 @@
 #include <set>
 #include <thread>
 
+#include "tests/support/expect_assert.h"
+
 namespace gloam {
 namespace {
 
@@ -53,6 +55,29 @@ TEST(Zones, a_scoped_zone_covers_what_it_encloses) {
   EXPECT_LE(zones[1].begin_ns, zones[0].begin_ns);
   EXPECT_LE(zones[0].begin_ns, zones[0].end_ns);
   EXPECT_LE(zones[0].end_ns, zones[1].end_ns);
+}
+
+TEST(Zones, of_threads_that_run_together_end_on_their_own_thread) {
+  ZoneRecorder recorder;
+  const ScopedZone outer(&recorder, "outer", "core");
+  std::thread([&] { const ScopedZone other(&recorder, "other", "core"); }).join();
+  const std::vector<Zone> zones = recorder.take();
+  ASSERT_EQ(zones.size(), 1u) << "the outer zone has not ended";
+  EXPECT_EQ(zones[0].name, "other");
+}
+
+TEST(Zones, that_end_before_they_begin_assert) {
+  ZoneRecorder recorder;
+  EXPECT_ASSERT(recorder.end_zone(), "ZoneRecorder::end_zone needs begin_zone");
+}
+
+TEST(Zones, for_both_reach_two_profilers_or_one) {
+  ZoneRecorder first, second;
+  ZonesForBoth both(&first, &second), one(nullptr, &second);
+  { const ScopedZone zone(&both, "both", "core"); }
+  { const ScopedZone zone(&one, "one", "core"); }
+  EXPECT_EQ(first.take().size(), 1u);
+  EXPECT_EQ(second.take().size(), 2u);
 }
 
 TEST(Zones, a_null_recorder_records_nothing) { const ScopedZone zone(nullptr, "unseen", "core"); }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/zones.h"
 #include "tests/support/expect_assert.h"
 
 namespace gloam {

@@ -16,6 +16,7 @@
 #include "engine/render/frame/stages.h"
 #include "engine/render/kept_frames/digest_commands.h"
 #include "engine/render/report/oversights.h"
+#include "engine/render/report/tell_profiler.h"
 #include "engine/render/scene/scene_triangles.h"
 #include "engine/render/views/seen_surfaces.h"
 #include "engine/scene/resources.h"
@@ -103,9 +104,15 @@ Status record_frame(Frame& frame, RendererParts& parts, gpu::CommandList& comman
                                frame.any_needs(parts.modules, &Module::needs_motion), frame.redraw != nullptr);
   GLOAM_TRY(add_companions(frame, parts.modules, *parts.options.device));
   GLOAM_TRY(prepare_views(frame, parts));
-  GLOAM_TRY(build_draws(frame, parts));
+  {
+    const ScopedZone zone(parts.options.profiler, "build_draws", "engine");
+    GLOAM_TRY(build_draws(frame, parts));
+  }
   for (std::size_t i = 0; i < frame.views.size(); ++i) note_surfaces(frame, i, parts);
-  for (std::size_t i = 0; i < frame.views.size(); ++i) GLOAM_TRY(declare_view(frame, i, parts));
+  {
+    const ScopedZone zone(parts.options.profiler, "declare_passes", "engine");
+    for (std::size_t i = 0; i < frame.views.size(); ++i) GLOAM_TRY(declare_view(frame, i, parts));
+  }
   resources.graph.set_view(0);
   GLOAM_TRY(resources.results.add_pass(resources.graph));
   return record_graph(commands, parts);
@@ -230,7 +237,10 @@ Status draw(RendererParts& parts, World& world, std::span<const ViewRequest> req
   for (const Module* module : parts.modules.demanded()) module->prepare_world(world, frame->knobs);
   GLOAM_TRY(run_systems(*frame, std::nullopt, parts));
   warn_of_oversights(world, requests, parts.modules.list(), parts.worlds, parts.once, *parts.options.log);
-  GLOAM_TRY(sync_assets(*frame, parts));
+  {
+    const ScopedZone zone(parts.options.profiler, "sync_assets", "engine");
+    GLOAM_TRY(sync_assets(*frame, parts));
+  }
   return submit(*frame, requests, parts);
 }
 
@@ -241,10 +251,14 @@ Result<std::unique_ptr<Frame>> draw_frame(RendererParts& parts, World& world, st
   parts.check_idle("render");
   const auto start = std::chrono::steady_clock::now();
   std::unique_ptr<Frame> frame;
+  const ScopedZone zone(parts.options.profiler, "render", "engine");
   const Status drawn =
       attempt([] { return std::string("the frame"); }, [&] { return draw(parts, world, requests, redraw, frame); });
   parts.last_frame.cpu_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   if (!drawn.ok()) return drawn.error();
+  if (parts.options.profiler != nullptr)
+    tell_profiler(*parts.options.profiler, parts.resources.graph,
+                  parts.last_frame.report(parts.modules, parts.resources, *parts.options.device), ++parts.frames_told);
   return frame;
 }
 

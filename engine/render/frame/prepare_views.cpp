@@ -73,9 +73,9 @@ Status run_systems(Frame& frame, std::optional<ViewId> view, RendererParts& part
   const auto place = [&] { return "system '" + std::string(parts.schedule.failed_system()) + "'"; };
   return attempt(place, [&]() -> Status {
     if (view) {
-      parts.schedule.run_view(*view, frame.world, *parts.options.executor, parts.options.zones);
+      parts.schedule.run_view(*view, frame.world, *parts.options.executor, parts.zones());
     } else {
-      parts.schedule.run(Stage::world, frame.world, *parts.options.executor, parts.options.zones);
+      parts.schedule.run(Stage::world, frame.world, *parts.options.executor, parts.zones());
     }
     return {};
   });

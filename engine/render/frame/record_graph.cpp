@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <string>
 
-#include "engine/core/zones.h"
+#include "engine/core/profiler.h"
 #include "engine/render/frame/attempt.h"
 #include "engine/render/frame/stages.h"
 
@@ -10,7 +10,7 @@ namespace gloam {
 
 Status record_graph(gpu::CommandList& commands, RendererParts& parts) {
   FrameGraph& graph = parts.resources.graph;
-  ZoneRecorder* zones = parts.options.zones;
+  Profiler* zones = parts.zones();
   {
     const ScopedZone zone(zones, "make_pipelines", "engine");
     GLOAM_TRY(parts.resources.declared.due_pipelines.make_all(parts.resources.pipelines, *parts.options.executor,

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "engine/core/zones.h"
 #include "engine/render/draws/culling.h"
 #include "engine/render/draws/levels.h"
 #include "engine/scene/systems.h"
@@ -13,12 +14,15 @@ namespace gloam {
 
 RendererParts::RendererParts(RendererOptions given)
     : options(std::move(given)),
+      log(*options.log, "render"),
+      zones_for_both(options.zones, options.profiler),
       device_user(*options.device),
       resources(*options.device),
       modules(std::move(options.modules)),
       worlds(*options.device, resources.pipelines,
              {.background = options.readiness == Readiness::background, .budget = options.upload_budget}),
       views(*options.device) {
+  options.log = &log;
   add_scene_systems(schedule);
   modules.add_to(knobs.set, schedule);
   add_knobs(knobs.set, "scene", kCulling, kFrameReuse, kLodPixels);
@@ -41,6 +45,11 @@ FrameServices RendererParts::services(const KnobRegistry& view_knobs) {
           .declared = resources.declared,
           .history = resources.history,
           .wait_for_pipelines = options.readiness == Readiness::wait};
+}
+
+Profiler* RendererParts::zones() {
+  if (options.profiler == nullptr) return options.zones;
+  return options.zones == nullptr ? options.profiler : &zones_for_both;
 }
 
 PipelineWait RendererParts::pipeline_wait() {

@@ -4,7 +4,9 @@
 
 #include <optional>
 
+#include "engine/core/log.h"
 #include "engine/core/once_log.h"
+#include "engine/core/profiler.h"
 #include "engine/gpu/device.h"
 #include "engine/render/governor/budgets.h"
 #include "engine/render/kept_frames/kept_frames.h"
@@ -33,8 +35,13 @@ struct RendererParts {
   void make_pipelines_ahead(const BudgetControl& control);
   /// Asserts that no frame is being drawn: modules and targets must not call the renderer. call: "render".
   void check_idle(std::string_view call) const;
+  /// Receives the zones of systems and of the frame's steps; may be null.
+  [[nodiscard]] Profiler* zones();
 
-  RendererOptions options;
+  RendererOptions options;  ///< `log` is the member below
+  LogCategory log;
+  ZonesForBoth zones_for_both;
+  std::uint64_t frames_told = 0;  ///< to options.profiler
   gpu::DeviceUser device_user;
   OnceLog once;  ///< warnings to options.log
   KnobsInUse knobs;

@@ -189,7 +189,7 @@ Result<SceneInfo> import_gltf(const std::string& path, const ImportOptions& opti
   } catch (const std::bad_alloc&) {
     return Error{ErrorKind::input, name + ": it needs more memory than there is"};
   }
-  for (const std::string& warning : info.warnings) log.warning(warning);
+  for (const std::string& warning : info.warnings) log.write_from("scene", LogLevel::warning, warning);
   return info;
 }
 

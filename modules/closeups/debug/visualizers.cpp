@@ -128,8 +128,7 @@ void CloseupViewPasses::add_pass(FrameBuilder& frame) {
   const std::span<const CloseupView> pairs = drawn_closeups(frame);
   if (!pairs.empty()) return add_view(frame, pairs, shown == kTexels);
   if (find_final_lists(frame) != nullptr) return;
-  once_log_.warning(frame.services().log,
-                    "view " + shown + " shows the picture as it is: the frame has no final lists");
+  once_log_.warning(frame.log(), "view " + shown + " shows the picture as it is: the frame has no final lists");
 }
 
 }  // namespace gloam

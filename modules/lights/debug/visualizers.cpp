@@ -100,9 +100,9 @@ std::optional<std::uint32_t> LightViews::shown_light(const FrameBuilder& frame, 
   if (at != lights.end()) return static_cast<std::uint32_t>(at - lights.begin());
   const Light* light = world.try_get<Light>(*entity);
   const bool directional = light != nullptr && light->kind == LightKind::directional;
-  once_log_.warning(frame.services().log,
-                    "view " + std::string(frame.visualizer()) + " shows no tile: the light " +
-                        (directional ? "is directional and in no tile's list" : "reaches nothing in view"));
+  LogCategory log(frame.services().log, frame.module());
+  once_log_.warning(log, "view " + std::string(frame.visualizer()) + " shows no tile: the light " +
+                             (directional ? "is directional and in no tile's list" : "reaches nothing in view"));
   return std::nullopt;
 }
 

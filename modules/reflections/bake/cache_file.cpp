@@ -224,7 +224,8 @@ std::optional<ReflectionCaptures> load_captures(const std::string& path, const W
   std::optional<ReflectionCaptures> captures;
   if (const auto bytes = read_sealed(path, identity_of(content))) captures = decode_captures(world, *bytes);
   if (!captures || captures->content != content) {
-    log.info(path + ": is not used: it is damaged, or its captures are of another state of the scene");
+    log.write_from("reflections", LogLevel::info,
+                   path + ": is not used: it is damaged, or its captures are of another state of the scene");
     return std::nullopt;
   }
   return captures;

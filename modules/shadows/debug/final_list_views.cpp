@@ -76,8 +76,7 @@ void add_final_list_view_pass(FrameBuilder& frame, OnceLog& once_log) {
     if (find_final_lists(frame) != nullptr)
       draw(frame, stem, shaders::shadows::final_count_view_frag, std::as_bytes(std::span(&directional_count, 1)));
     else
-      once_log.warning(frame.services().log,
-                       "view " + stem + " shows the picture as it is: " + reason_without_lists(frame));
+      once_log.warning(frame.log(), "view " + stem + " shows the picture as it is: " + reason_without_lists(frame));
   }
 }
 

@@ -28,9 +28,11 @@ std::optional<shaders::ShownLightConstants> shown_light(const FrameBuilder& fram
 std::optional<shaders::ShownLightConstants> shown_light_or_warn(const FrameBuilder& frame, OnceLog& once_log) {
   const std::string_view shown = frame.visualizer();
   const auto light = shown_light(frame, shown.substr(shown.find(':') + 1));
-  if (!light)
-    once_log.warning(frame.services().log,
+  if (!light) {
+    LogCategory log(frame.services().log, frame.module());
+    once_log.warning(log,
                      "view " + std::string(shown) + " shows the picture as it is: the light reaches nothing in view");
+  }
   return light;
 }
 

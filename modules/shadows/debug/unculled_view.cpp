@@ -71,7 +71,7 @@ void add_unculled_view_passes(FrameBuilder& frame, OnceLog& once_log) {
   const std::string_view stem = shown.substr(0, shown.find(':'));
   if ((stem != kUnculled && stem != kFiltered) || frame.find<ShadowsOutputs>() == nullptr) return;
   if (find_final_lists(frame) == nullptr) {
-    once_log.warning(frame.services().log,
+    once_log.warning(frame.log(),
                      "view " + std::string(shown) + " shows the picture as it is: " + reason_without_lists(frame));
     return;
   }

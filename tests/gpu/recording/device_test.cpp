@@ -310,5 +310,17 @@ TEST_F(RecordingDeviceTest, misuse_asserts) {
   EXPECT_ASSERT((void)device->create_buffer({.name = "empty"}), "at least one byte");
 }
 
+TEST_F(RecordingDeviceTest, a_host_that_records_natively_gets_no_command_buffer_and_has_the_list_to_itself) {
+  EXPECT_EQ(commands->begin_native(7), nullptr);
+  commands->end_native();
+  EXPECT_THAT(faults(), IsEmpty());
+  static_cast<void>(commands->begin_native({}));
+  commands->fill_buffer(buffer("a"), 0, 16, 0);
+  EXPECT_THAT(faults(), ElementsAre(HasSubstr("before the host's native commands have ended")));
+  commands->end_native();
+  commands->dispatch(1, 1, 1);
+  EXPECT_THAT(faults().back(), HasSubstr("no pipeline is bound"));
+}
+
 }  // namespace
 }  // namespace gloam::gpu

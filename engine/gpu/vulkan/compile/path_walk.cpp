@@ -25,6 +25,8 @@ constexpr std::uint32_t kSelections = 20;
 constexpr double kLeastRatio = 4.0;  ///< of the times of both forms; other compilers are below 1.5
 constexpr int kRuns = 2;
 
+constexpr const char* kName = "path walk";  ///< of all objects of the measurement
+
 /// A pipeline layout with one storage buffer.
 class ProbeLayout {
  public:
@@ -40,6 +42,8 @@ class ProbeLayout {
         .sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO, .setLayoutCount = 1, .pSetLayouts = &set_};
     if (context.vk.vkCreatePipelineLayout(context.device, &layout, nullptr, &layout_) != VK_SUCCESS)
       layout_ = VK_NULL_HANDLE;
+    context.set_name(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, set_, kName);
+    if (layout_ != VK_NULL_HANDLE) context.set_name(VK_OBJECT_TYPE_PIPELINE_LAYOUT, layout_, kName);
   }
   ~ProbeLayout() {
     context_.vk.vkDestroyPipelineLayout(context_.device, layout_, nullptr);
@@ -72,6 +76,8 @@ double compile_time(Context& context, VkPipelineLayout layout, std::span<const s
   const VkResult result =
       context.vk.vkCreateComputePipelines(context.device, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline);
   const Seconds taken = std::chrono::steady_clock::now() - start;
+  context.set_name(VK_OBJECT_TYPE_SHADER_MODULE, module, kName);
+  if (result == VK_SUCCESS) context.set_name(VK_OBJECT_TYPE_PIPELINE, pipeline, kName);
   context.vk.vkDestroyPipeline(context.device, pipeline, nullptr);
   context.vk.vkDestroyShaderModule(context.device, module, nullptr);
   return result == VK_SUCCESS ? taken.count() : 0.0;

@@ -83,7 +83,9 @@ PipelineCache::PipelineCache(Context& context, const std::string& directory) : c
   if (result != VK_SUCCESS) {
     cache_ = VK_NULL_HANDLE;
     context.log().warning("No pipeline cache: " + describe(result));
+    return;
   }
+  context.set_name(VK_OBJECT_TYPE_PIPELINE_CACHE, cache_, "pipelines");
 }
 
 PipelineCache::~PipelineCache() {

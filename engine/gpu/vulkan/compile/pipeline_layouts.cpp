@@ -103,6 +103,8 @@ Result<VkDescriptorSetLayout> PipelineLayouts::set_layout(std::span<const Reflec
   VkDescriptorSetLayout layout = VK_NULL_HANDLE;
   const VkResult result = context_.vk.vkCreateDescriptorSetLayout(context_.device, &info, nullptr, &layout);
   if (result != VK_SUCCESS) return failure("A descriptor set layout could not be made", result);
+  context_.set_name(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, layout,
+                    "set layout of " + std::to_string(bindings.size()) + " bindings");
   set_layouts_.emplace(std::move(key), layout);
   return layout;
 }
@@ -129,6 +131,8 @@ Result<const PipelineLayout*> PipelineLayouts::find_or_create(const ShaderInterf
                                            .pPushConstantRanges = &range};
   const VkResult result = context_.vk.vkCreatePipelineLayout(context_.device, &info, nullptr, &made.layout);
   if (result != VK_SUCCESS) return failure("A pipeline layout could not be made", result);
+  context_.set_name(VK_OBJECT_TYPE_PIPELINE_LAYOUT, made.layout,
+                    "pipeline layout of " + std::to_string(resources) + " resources");
   return &layouts_.emplace(std::move(key), std::move(made)).first->second;
 }
 

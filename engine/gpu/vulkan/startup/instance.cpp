@@ -135,7 +135,7 @@ VkBool32 Instance::on_message(VkDebugUtilsMessageSeverityFlagBitsEXT severity, V
   std::string line = std::string("Vulkan: ") + data->pMessage;
   std::replace(line.begin(), line.end(), '\n', ' ');
   const bool is_error = (severity & VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT) != 0;
-  self->log_->write(is_error ? LogLevel::error : LogLevel::warning, line);
+  self->log_.write_from("validation", is_error ? LogLevel::error : LogLevel::warning, line);
   return VK_FALSE;
 }
 

@@ -28,11 +28,11 @@ class Instance {
 
   [[nodiscard]] VkInstance handle() const { return instance_; }
   [[nodiscard]] const InstanceFunctions& functions() const { return functions_; }
-  [[nodiscard]] LogSink& log() const { return *log_; }
+  [[nodiscard]] LogSink& log() const { return log_; }
   [[nodiscard]] std::uint64_t messages() const { return messages_.load(); }
 
  private:
-  explicit Instance(LogSink& log) : log_(&log) {}
+  explicit Instance(LogSink& log) : log_(log, "gpu") {}
   Status make(const VulkanOptions& options);
   Status load_functions(PFN_vkGetInstanceProcAddr get);
   Status make_messenger();
@@ -40,7 +40,7 @@ class Instance {
                                                    VkDebugUtilsMessageTypeFlagsEXT types,
                                                    const VkDebugUtilsMessengerCallbackDataEXT* data, void* user);
 
-  LogSink* log_;
+  mutable LogCategory log_;
   VkInstance instance_ = VK_NULL_HANDLE;
   bool owned_ = true;
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
