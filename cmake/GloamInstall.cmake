@@ -82,15 +82,23 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/gloamConfigVersion.cmake 
 install(FILES ${PROJECT_BINARY_DIR}/gloamConfig.cmake ${PROJECT_BINARY_DIR}/gloamConfigVersion.cmake
   ${PROJECT_SOURCE_DIR}/cmake/GloamShaders.cmake ${PROJECT_SOURCE_DIR}/cmake/EmbedSpirv.cmake DESTINATION ${gloam_package_dir} COMPONENT gloam)
 
+include(GloamPkgConfig)
+
 # Headers keep their paths relative to the root, below include/gloam. Targets add that folder to the include path, so
-# that `#include "engine/…"` works and nothing else in include/ is shadowed. Of modules only the public headers and those
-# of CPU rooms are installed; engine/gpu/vulkan is not.
+# that `#include "engine/…"` works and nothing else in include/ is shadowed. Of engine/ all headers but internal ones are
+# installed, of modules only the public headers and those of CPU rooms: docs/public-headers.md lists them.
 set(gloam_include_dir include/gloam)
+file(STRINGS ${PROJECT_SOURCE_DIR}/cmake/internal_headers.txt gloam_internal_headers REGEX "^[^#]")
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/internal_headers.txt)
+set(gloam_internal_patterns "")
+foreach(header IN LISTS gloam_internal_headers)
+  string(REGEX REPLACE "/$" "" header ${header})
+  list(APPEND gloam_internal_patterns PATTERN ${header} EXCLUDE)
+endforeach()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/engine DESTINATION ${gloam_include_dir} COMPONENT gloam
-  FILES_MATCHING PATTERN "*.h" PATTERN "engine/gpu/vulkan" EXCLUDE PATTERN "engine/render/frame/attempt.h" EXCLUDE
-  PATTERN "engine/jobs/conformance" EXCLUDE)
+  FILES_MATCHING PATTERN "*.h" ${gloam_internal_patterns})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/modules DESTINATION ${gloam_include_dir} COMPONENT gloam
-  FILES_MATCHING REGEX "/modules/[a-z_]+/(components|module|outputs|light_names|module_list)\\.h$"
+  FILES_MATCHING REGEX "/modules/[a-z_]+/(components|module|outputs|light_names|module_list|bake|baked_light|captures)\\.h$"
   REGEX "/modules/(lights/(bins|masks|selection)|closeups/umbra|reflections/culling|grass/growth)/[a-z_]+\\.h$")
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/shaders DESTINATION ${gloam_include_dir} COMPONENT gloam
   FILES_MATCHING REGEX "_(shared\\.h|api\\.glsl)$|/shaders/common/[a-z_]+\\.(h|glsl)$" PATTERN "sandbox" EXCLUDE)

@@ -17,14 +17,8 @@ set(moved
     engine/ecs/storage/query.h
   engine/ecs/virtual_memory.h
     engine/ecs/storage/virtual_memory.h
-  engine/frame/barrier_placer.h
-    engine/frame/planning/barrier_placer.h
   engine/frame/frame_results.h
     engine/frame/transfers/results.h
-  engine/frame/plan.h
-    engine/frame/planning/plan.h
-  engine/frame/plan_cache.h
-    engine/frame/planning/plan_cache.h
   engine/frame/readback.h
     engine/frame/transfers/readback.h
   engine/frame/staging.h
@@ -33,18 +27,8 @@ set(moved
     engine/frame/transfers/upload.h
   engine/gpu/recording_device.h
     engine/gpu/recording/device.h
-  engine/gpu/shader_interface.h
-    engine/gpu/spirv/shader_interface.h
   engine/gpu/spirv_reflection.h
     engine/gpu/spirv/reflection.h
-  engine/jobs/crew.h
-    engine/jobs/pool/crew.h
-  engine/jobs/graph_region.h
-    engine/jobs/pool/graph_region.h
-  engine/jobs/range_region.h
-    engine/jobs/pool/range_region.h
-  engine/jobs/site_costs.h
-    engine/jobs/pool/site_costs.h
   engine/render/passes/passes.h
     engine/render/passes/renderer_passes.h
   engine/scene/animated_nodes.h
@@ -59,20 +43,12 @@ set(moved
     engine/scene/gltf/import.h
   engine/scene/image_file.h
     engine/scene/decoding/image_file.h
-  engine/scene/jpeg_segments.h
-    engine/scene/decoding/jpeg_segments.h
   engine/scene/key_registry.h
     engine/scene/keys/registry.h
   engine/scene/key_table.h
     engine/scene/keys/table.h
   engine/scene/mesh_builder.h
     engine/scene/assets/mesh_builder.h
-  engine/scene/morphing.h
-    engine/scene/posing/morphing.h
-  engine/scene/png_rows.h
-    engine/scene/decoding/png_rows.h
-  engine/scene/skinning.h
-    engine/scene/posing/skinning.h
   engine/scene/topology.h
     engine/scene/assets/topology.h
   engine/scene/value.h

@@ -7,7 +7,9 @@ include(GloamShaders)
 add_library(gloam_options INTERFACE)
 add_library(gloam::options ALIAS gloam_options)
 target_compile_features(gloam_options INTERFACE cxx_std_20)
-target_compile_definitions(gloam_options INTERFACE GLM_FORCE_DEPTH_ZERO_TO_ONE)
+# The library holds paths from the root of the sources: those of assertions, and of debug information.
+target_compile_options(gloam_options INTERFACE
+  $<BUILD_INTERFACE:-ffile-prefix-map=${PROJECT_BINARY_DIR}/=> $<BUILD_INTERFACE:-ffile-prefix-map=${PROJECT_SOURCE_DIR}/=>)
 # No contraction to fused multiply-add: a CPU clone of a shader and the same code in another translation unit must agree
 # bit for bit.
 target_compile_options(gloam_options INTERFACE $<BUILD_INTERFACE:-ffp-contract=off>)

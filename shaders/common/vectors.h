@@ -9,9 +9,8 @@
 #error "gloam's types are packed: compile sources that include gloam without GLM_FORCE_(DEFAULT_)ALIGNED_GENTYPES"
 #endif
 
-#ifndef GLM_FORCE_DEPTH_ZERO_TO_ONE
-#define GLM_FORCE_DEPTH_ZERO_TO_ONE
-#endif
+// GLM's clip-space settings (GLM_FORCE_DEPTH_ZERO_TO_ONE, GLM_FORCE_LEFT_HANDED) are the host's: nothing here, and
+// nothing in the library, calls a function that depends on them.
 
 #include <cstdint>
 #include <glm/ext/matrix_float3x3.hpp>
