@@ -8,7 +8,7 @@ import source_text
 
 LINES = ("SPDX-FileCopyrightText: The gloam authors", "SPDX-License-Identifier: MIT")
 SUFFIXES = {".cpp": "//", ".h": "//", ".glsl": "//", ".py": "#", ".cmake": "#", ".sh": "#", "CMakeLists.txt": "#"}
-FOLDERS = source_text.SOURCE_FOLDERS + ("cmake", "scripts")
+FOLDERS = source_text.SOURCE_FOLDERS + ("cmake", "packaging", "scripts")
 
 
 def fault_of(text, mark):

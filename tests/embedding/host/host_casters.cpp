@@ -360,6 +360,22 @@ class Checks {
     mesh_.revision = 1000;
   }
 
+  /// A frame with a pass of the host is kept only if the host tells that its commands are those of the frames before.
+  void keeps_frames_with_a_revision() {
+    const auto one = stage(Casters::host, {.sun = true});
+    one->draw(24);
+    expect(one->kept(), "the frame rests");
+    one->counts.works = true;
+    one->draw(12);
+    expect(!one->kept(), "commands without a revision may do anything");
+    one->counts.revision = 3;
+    one->draw(12);
+    expect(one->kept(), "commands with the same revision do the same");
+    one->counts.revision = 4;
+    one->draw();
+    expect(!one->kept(), "another revision is drawn");
+  }
+
   [[nodiscard]] bool right() const { return right_; }
 
  private:
@@ -405,6 +421,7 @@ int main(int argc, char** argv) {
     checks.agrees_with_rays();
     checks.keeps_what_rests();
     checks.keeps_nothing_untold();
+    checks.keeps_frames_with_a_revision();
     right = checks.right();
   }
   device.reset();

@@ -72,6 +72,7 @@ class NativeCasters final : public Module {
   void scene_keys(KeyRegistry&) const override {}
   [[nodiscard]] Demand demand(const World&, const RenderView*) const override { return {true, "the host's casters"}; }
   void add_passes(FrameBuilder& frame, PassPhase phase) override {
+    if (phase == PassPhase::lists && counts_.works) work(frame.graph());
     if (phase != PassPhase::announce) return;
     frame.add_caster_source(mesh_source());
     frame.add_caster_source(cube_source());
@@ -104,6 +105,14 @@ class NativeCasters final : public Module {
       drawing_.record_cubes(native.get(), face_of(draw));
     };
     return source;
+  }
+  /// Adds a pass whose commands do nothing here.
+  void work(FrameGraph& graph) {
+    PassBuilder pass = graph.add_pass("host_work", name());
+    pass.keep();  // gloam does not know what it writes
+    pass.execute([this](PassContext& context) {
+      const gpu::NativeCommands native = gpu::native_commands(context.commands(), counts_.revision);
+    });
   }
   [[nodiscard]] static NativeDrawing::Face face_of(const CasterSourceDraw& draw) {
     return {draw.projection().constants(dmat4(1.0)), draw.bias_units(), draw.bias_slope()};

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -84,11 +85,13 @@ class NativeDrawing {
   VkPipeline skinning_ = VK_NULL_HANDLE, mesh_pipeline_ = VK_NULL_HANDLE, cube_pipeline_ = VK_NULL_HANDLE;
 };
 
-/// How often gloam has asked the host to record.
+/// How often gloam has asked the host to record, and what else the host records.
 struct NativeCounts {
   int skinned = 0;
   int mesh_draws = 0;
   int cube_draws = 0;
+  bool works = false;                     ///< a pass of the host records in every frame
+  std::optional<std::uint64_t> revision;  ///< of that pass, as in native_commands
 };
 
 /// A module that adds both as caster sources. All arguments outlive it.

@@ -230,6 +230,27 @@ TEST(HostFeatures, the_structures_of_single_features_count) {
   EXPECT_EQ(vulkan::missing_features(vulkan::features_of_chain(chain)), "");
 }
 
+TEST_F(Interop, native_views_show_images_of_every_shape) {
+  const auto shaped = [&](ImageShape shape, std::uint32_t layers, std::uint32_t depth) {
+    ImageDesc desc = small_image();
+    desc.usage = ImageUsage::sampled;
+    desc.shape = shape;
+    desc.layers = layers;
+    desc.depth = depth;
+    return make_image(desc);
+  };
+  for (const auto& [image, layer_count] :
+       {std::pair(shaped(ImageShape::plain, 1, 1), 1u), std::pair(shaped(ImageShape::array, 3, 1), 2u),
+        std::pair(shaped(ImageShape::cube, 6, 1), 6u), std::pair(shaped(ImageShape::volume, 1, 4), 1u)}) {
+    const ImageView view{.image = image, .layer_count = layer_count};
+    const VkImageView native = test::value_of(native_view(device(), view));
+    EXPECT_NE(native, VkImageView{});
+    EXPECT_EQ(test::value_of(native_view(device(), view)), native) << "it is made once";
+  }
+  const ImageView absent{.image = make_image(small_image()), .first_layer = 3};
+  EXPECT_ASSERT((void)native_view(device(), absent), "a range begins inside its image");
+}
+
 TEST(HostBufferAccesses, are_those_of_buffers) {
   for (std::uint32_t a = 0; a <= static_cast<std::uint32_t>(Access::present); ++a) {
     const auto access = static_cast<Access>(a);
