@@ -105,6 +105,10 @@ class Device {
   [[nodiscard]] virtual Status wait_idle() = 0;
 
   [[nodiscard]] virtual std::vector<ModuleMemory> memory() const = 0;  ///< bytes per module, sorted by module name
+  [[nodiscard]] virtual MemoryTotals memory_totals() const = 0;
+  /// Gives memory blocks without living objects back to the driver. Destroyed objects live until the frames that may
+  /// use them have finished: call wait_idle before. Without this call one empty block of each kind is kept.
+  virtual void free_idle_memory() {}
   [[nodiscard]] virtual std::uint32_t pipeline_count(std::string_view module) const = 0;
   [[nodiscard]] virtual std::uint64_t validation_messages() const = 0;
 

@@ -362,4 +362,25 @@ struct ModuleMemory {
   std::uint64_t bytes = 0;
 };
 
+/// How a device takes memory from its driver.
+struct MemoryOptions {
+  /// Largest size of a memory block, in bytes; at least kLeastBlockBytes. Small buffers and images of one kind of
+  /// memory share blocks. The first block of a kind has kLeastBlockBytes, further ones are as large as all blocks of
+  /// the kind before. An object larger than half of `block_bytes` has its own allocation.
+  std::uint64_t block_bytes = std::uint64_t{64} << 20;
+  /// The most bytes that the device reserves; 0: no limit. A creation that would exceed it fails with an Error that
+  /// names the budget, after empty blocks were given back.
+  std::uint64_t budget_bytes = 0;
+
+  static constexpr std::uint64_t kLeastBlockBytes = std::uint64_t{4} << 20;
+};
+
+/// Memory of a whole device, in bytes.
+struct MemoryTotals {
+  std::uint64_t used = 0;      ///< of all living objects: the sum of Device::memory
+  std::uint64_t reserved = 0;  ///< taken from the driver or the host's allocator; at least `used`
+  std::uint32_t blocks = 0;    ///< number of allocations that `reserved` consists of
+  std::uint64_t budget = 0;    ///< MemoryOptions::budget_bytes
+};
+
 }  // namespace gloam::gpu

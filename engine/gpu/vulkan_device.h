@@ -32,6 +32,7 @@ struct VulkanOptions {
   /// again with the same code, constants and state is then not compiled again. 0: none.
   std::size_t retained_pipelines = 0;
   LogSink* log = nullptr;  ///< must outlive the device; null: nothing is logged
+  MemoryOptions memory;
   /// The instance extensions that the window system requires; empty: no window.
   std::vector<std::string> window_extensions;
   /// Creates a surface of the window, as for create_swapchain; called once, and the surface is destroyed after the

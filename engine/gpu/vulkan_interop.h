@@ -13,6 +13,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "engine/core/log.h"
 #include "engine/core/result.h"
@@ -32,6 +33,40 @@ void fill_required_features(VkPhysicalDeviceFeatures& core, VkPhysicalDeviceVulk
 /// Sets the optional features that gloam uses (anisotropic filtering, …) to VK_TRUE where the device supports them.
 /// core_supported comes from vkGetPhysicalDeviceFeatures2.
 void fill_useful_features(const VkPhysicalDeviceFeatures& core_supported, VkPhysicalDeviceFeatures& core);
+
+/// A request for the memory of one buffer, one image, or one block in which buffers and images lie.
+struct HostMemoryRequest {
+  /// memoryTypeBits: only types that are usable; never protected or lazily allocated ones. A block of buffers and
+  /// images gets alignment ≥ bufferImageGranularity.
+  VkMemoryRequirements requirements = {};
+  VkMemoryPropertyFlags required = 0;   ///< properties that the memory type must have
+  VkMemoryPropertyFlags preferred = 0;  ///< properties that it should have
+  bool mapped = false;                  ///< HostMemory::mapped must be set, and stay valid until the memory is freed
+  bool image = false;                   ///< for optimal images; false: for buffers, or for a block of both (`block`)
+  bool block = false;                   ///< for buffers and images together; must not share a granularity page
+  std::string_view module;              ///< valid during the call
+  std::string_view name;                ///< of the object; valid during the call
+};
+
+/// Memory that a host has given: bytes [offset, offset + requirements.size) of `memory`.
+struct HostMemory {
+  VkDeviceMemory memory = VK_NULL_HANDLE;
+  VkDeviceSize offset = 0;  ///< a multiple of requirements.alignment
+  void* mapped = nullptr;   ///< address of the byte at `offset`, if the request has asked for it
+  void* user = nullptr;     ///< of the host, for example a VmaAllocation
+};
+
+/// A host's allocator of GPU memory, for example one that calls VMA. Called from any thread, one call at a time for
+/// each gpu::Device. Calls must not use that device.
+class HostMemoryAllocator {
+ public:
+  virtual ~HostMemoryAllocator() = default;
+  /// On VK_SUCCESS `memory` must be set, in a memory type that `request` allows; other results make the creation of the
+  /// object fail with an Error.
+  [[nodiscard]] virtual VkResult allocate(const HostMemoryRequest& request, HostMemory& memory) = 0;
+  /// Frees memory from allocate. The GPU has finished with it.
+  virtual void free(const HostMemory& memory) = 0;
+};
 
 /// A device that the host has created. The host owns all handles; they must outlive the gpu::Device created on them.
 struct HostDevice {
@@ -53,6 +88,13 @@ struct HostDevice {
   std::string cache_directory;         ///< as VulkanOptions::cache_directory
   std::size_t retained_pipelines = 0;  ///< as VulkanOptions::retained_pipelines
   LogSink* log = nullptr;              ///< must outlive the device
+  /// Passed to every vkCreate…, vkAllocate…, vkDestroy… and vkFree… of gloam that takes callbacks. Copied; what it
+  /// points to must outlive the device. Called from any thread, because pipelines are compiled on several. Null: none.
+  const VkAllocationCallbacks* allocation_callbacks = nullptr;
+  MemoryOptions memory;
+  /// Gives all GPU memory of gloam; must outlive the device. Then gloam allocates none itself, and
+  /// MemoryOptions::block_bytes has no effect. Null: gloam allocates blocks.
+  HostMemoryAllocator* memory_allocator = nullptr;
 };
 
 /// Creates a gpu::Device on the host's device. The host's objects are never destroyed, renamed or waited for.

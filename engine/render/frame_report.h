@@ -37,6 +37,7 @@ struct FrameReport {
   bool kept = false;
   /// When the last frame was given to the GPU: ZoneRecorder::now_ns just before; 0 without a recorder.
   std::uint64_t submitted_ns = 0;
+  gpu::MemoryTotals gpu_memory;      ///< of the device, used and reserved
   std::vector<ModuleState> modules;  ///< "engine" first, then in list order
   /// Counters of the last view; counters from the GPU are of the newest completed frame.
   std::map<std::string, double> counters;

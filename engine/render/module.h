@@ -224,6 +224,9 @@ class Module {
   [[nodiscard]] virtual bool spreads_work(const World&, const RenderView&) const { return false; }
   /// Frees what the module keeps for this view in any world. Called by Renderer::release_view.
   virtual void release_view(ViewId) {}
+  /// Frees GPU memory that the next frames will hardly need: staging of what is uploaded once, room that only past
+  /// frames have filled. The GPU is idle. Called by Renderer::free_idle_memory.
+  virtual void free_idle_memory() {}
   /// Called when a frame is given up (an error, an exception) that declared passes of the module: the GPU executes
   /// nothing of this frame. The module forgets what it noted as done while these passes were declared or recorded, so
   /// that the next frame does it. `frame`: the frame's Device::frame_number. The default frees all of the module's

@@ -103,7 +103,9 @@ class Renderer {
   /// that keep several frames in flight.
   [[nodiscard]] std::vector<GpuFrameTimes> take_times();
   /// Waits for the GPU, then frees the memory of cached plans except the last frame's (FrameGraph::free_idle_memory),
-  /// and of all objects that were destroyed before. Without this call, memory of unused plans is kept for a while, in
+  /// of staging, and of all objects that were destroyed before; gives empty memory blocks back to the driver
+  /// (gpu::Device::free_idle_memory); and has modules free what only past frames have needed: an atlas of shadow maps
+  /// that is too large shrinks in the next frame. Without this call, memory of unused plans is kept for a while, in
   /// case frames with the same passes return.
   void free_idle_memory();
   /// Reads the picture of a view's last frame. Waits for the GPU. Usage error if the view has no picture: it was not

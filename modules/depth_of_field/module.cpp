@@ -113,6 +113,7 @@ class DepthOfFieldModule final : public Module {
     sink.count("dof.sprites", lists.list[GLOAM_DOF_SPRITES].count);
     sink.count("dof.sprite_overflow", lists.list[GLOAM_DOF_OVERFLOW].count);
   }
+  void free_idle_memory() override { staging_.release(); }
   void release() override { staging_.release(); }
 
  private:

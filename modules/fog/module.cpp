@@ -116,6 +116,7 @@ class FogModule final : public Module {
     if (phase == PassPhase::output && bare) show_bare_light(frame);
   }
 
+  void free_idle_memory() override { staging_.release(); }
   void release() override { staging_.release(); }
 
  private:

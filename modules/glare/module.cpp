@@ -80,6 +80,7 @@ class GlareModule final : public Module {
   void counters(const World& world, const RenderView& view, CounterSink& sink) const override {
     sink.count("glare.percent", 100.0 * static_cast<double>(glare_share(world, view)));
   }
+  void free_idle_memory() override { staging_.release(); }
   void release() override { staging_.release(); }
 
  private:

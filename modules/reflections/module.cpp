@@ -242,6 +242,7 @@ class ReflectionsModule final : public Module {
                                               const Captures& copies) const override {
     return reflection_pick_lines(frame, pixel, copies);
   }
+  void free_idle_memory() override { staging_.release(); }
   void release() override {
     staging_.release();
     factors_.clear();

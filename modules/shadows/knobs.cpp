@@ -10,8 +10,9 @@ void add_shadow_knobs(KnobRegistry& registry) {
   add_knobs(registry, "shadows", kShadowMode, kShadowClassify, kShadowFilter, kShadowKernel, kShadowNear,
             kShadowNearDirections, kShadowMips, kShadowMipOperator, kSquareShadowKernel, kShadowReceiverPlane,
             kShadowTerminator, kShadowDepth16, kOrientedShadowBias, kSubsurfaceBacks, kShadowBiasMm, kShadowBiasUnits,
-            kVisibilityLevels, kShadowAtlas, kShadowTexelsPerPixel, kSimplifiedCasters, kShadowLodTexels,
-            kShadowSlotLimit, kShadowPairLimit, kShadowReuse, kShadowMinContribution, kShadowEarlyOuts);
+            kVisibilityLevels, kShadowAtlas, kShadowKeptAtlases, kShadowTexelsPerPixel, kSimplifiedCasters,
+            kShadowLodTexels, kShadowSlotLimit, kShadowPairLimit, kShadowReuse, kShadowMinContribution,
+            kShadowEarlyOuts);
 }
 
 ShadowKnobs shadow_knobs(const KnobRegistry& registry) {
@@ -33,6 +34,7 @@ ShadowKnobs shadow_knobs(const KnobRegistry& registry) {
   knobs.bias_units = knobs.oriented ? 0.0f : static_cast<float>(registry.value(kShadowBiasUnits));
   knobs.levels = registry.value(kVisibilityLevels);
   knobs.atlas_size = registry.value(kShadowAtlas);
+  knobs.kept_atlas_bytes = std::uint64_t{registry.value(kShadowKeptAtlases)} << 20;
   knobs.texels_per_pixel = static_cast<float>(registry.value(kShadowTexelsPerPixel));
   knobs.simplified = registry.value(kSimplifiedCasters);
   knobs.lod_texels = static_cast<float>(registry.value(kShadowLodTexels));

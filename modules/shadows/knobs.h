@@ -141,6 +141,16 @@ inline constexpr ChoiceKnob<std::uint32_t> kShadowAtlas{
     .default_value = 4096,
     .unit = "texels",
     .only_with = "shadows.mode=monolithic|deferred"};
+inline constexpr IntegerKnob<std::uint32_t> kShadowKeptAtlases{
+    .name = "shadows.kept_atlases",
+    .meaning =
+        "memory for views whose shadow maps stay from frame to frame; further views take turns in one atlas, where "
+        "each "
+        "draws its maps again if another view has drawn since",
+    .max = 65536,
+    .default_value = 384,
+    .unit = "MiB",
+    .only_with = "shadows.mode=monolithic|deferred"};
 inline constexpr NumberKnob kShadowTexelsPerPixel{
     .name = "shadows.texels_per_pixel",
     .meaning = "shadow-map texels along a pixel's side; fewer if the atlas is full",
@@ -217,6 +227,7 @@ struct ShadowKnobs {
                             ///< with oriented bias
   std::uint32_t levels = 255;  ///< steps of a visibility: 15 or 255; 0: not quantised
   std::uint32_t atlas_size = 4096;
+  std::uint64_t kept_atlas_bytes = ~0ull;  ///< of the images of views that do not take turns
   float texels_per_pixel = 3.0f;
   bool simplified = false;  ///< casters are drawn with their simplified triangles
   float lod_texels = 0.0f;  ///< greatest error of casters' levels of detail; 0: there are none

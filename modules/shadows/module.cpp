@@ -108,7 +108,10 @@ class ShadowsModule final : public Module {
     world.resource<ShadowTexelGrid>().unit = 1.0 / metres_per_unit(world);
     prepare_shadow_view(world, view, shadow_knobs(knobs));
     world.view_resource<ShadowSettings>(view) = shadow_settings(shadow_knobs(knobs));
-    world.view_resource<ViewFaces>(view).knobs_version = knobs.version();
+    auto& view_faces = world.view_resource<ViewFaces>(view);
+    view_faces.knobs_version = knobs.version();
+    if (view_faces.shrinks != shrinks_) view_faces.side = {};
+    view_faces.shrinks = shrinks_;
     // Cookies of lights added after the scene was loaded. The error of a bad file stays in Cookies::faults for the log.
     static_cast<void>(load_cookies(world));
   }
@@ -189,6 +192,10 @@ class ShadowsModule final : public Module {
     states_.release_view(view);
     reuse_.release_view(view);
   }
+  void free_idle_memory() override {
+    states_.free_idle_memory();
+    ++shrinks_;
+  }
   void give_up_frame(std::uint64_t) override {}  // what the module notes about maps changes in commits only
   void release() override {
     states_.release();
@@ -225,6 +232,7 @@ class ShadowsModule final : public Module {
 
   ShadowStates states_;
   ListReuse reuse_;
+  std::uint64_t shrinks_ = 0;  ///< calls of free_idle_memory() so far
   std::optional<LastInputs> last_;
   OnceLog once_log_;
 };

@@ -246,6 +246,12 @@ class Recorder final : public RecordingDevice {
     }
     return result;
   }
+  MemoryTotals memory_totals() const override {
+    MemoryTotals totals;
+    for (const ModuleMemory& share : memory()) totals.used += share.bytes;
+    totals.reserved = totals.used;
+    return totals;
+  }
   std::uint32_t pipeline_count(std::string_view module) const override {
     std::uint32_t count = 0;
     objects_.pipelines.for_each_alive([&](const Pipeline& pipeline) { count += pipeline.module == module ? 1 : 0; });

@@ -24,16 +24,15 @@ Result<PhysicalDevice> choose_device(const Instance& instance, const VulkanOptio
 
 }  // namespace
 
-VulkanDevice::VulkanDevice(std::unique_ptr<Instance> instance, std::unique_ptr<Context> context,
-                           const std::string& cache_directory, std::size_t retained_pipelines)
+VulkanDevice::VulkanDevice(std::unique_ptr<Instance> instance, std::unique_ptr<Context> context, const Options& options)
     : instance_(std::move(instance)),
       context_(std::move(context)),
-      memory_(*context_),
+      memory_(*context_, options.memory, options.memory_allocator),
       blocks_(memory_, graveyard_),
       buffers_(*context_, memory_, graveyard_),
       images_(*context_, memory_, graveyard_),
       samplers_(*context_),
-      pipelines_(*context_, graveyard_, cache_directory, retained_pipelines),
+      pipelines_(*context_, graveyard_, options.cache_directory, options.retained_pipelines),
       writer_(*context_, buffers_, images_, samplers_),
       sets_(*context_, graveyard_, writer_),
       frame_sets_(*context_) {}
@@ -48,7 +47,8 @@ Result<std::unique_ptr<Device>> VulkanDevice::create(const VulkanOptions& option
   physical->split_selections = options.split_selections;
   Result<std::unique_ptr<Context>> context = Context::create(**instance, *physical);
   if (!context) return context.error();
-  return assemble(std::move(*instance), std::move(*context), options.cache_directory, options.retained_pipelines);
+  return assemble(std::move(*instance), std::move(*context),
+                  {options.cache_directory, options.retained_pipelines, options.memory});
 }
 
 Result<std::unique_ptr<Device>> VulkanDevice::create_on(const HostDevice& host) {
@@ -65,15 +65,13 @@ Result<std::unique_ptr<Device>> VulkanDevice::create_on(const HostDevice& host) 
   if (!physical) return physical.error();
   Result<std::unique_ptr<Context>> context = Context::adopt(**instance, *physical, host);
   if (!context) return context.error();
-  return assemble(std::move(*instance), std::move(*context), host.cache_directory, host.retained_pipelines);
+  return assemble(std::move(*instance), std::move(*context),
+                  {host.cache_directory, host.retained_pipelines, host.memory, host.memory_allocator});
 }
 
 Result<std::unique_ptr<Device>> VulkanDevice::assemble(std::unique_ptr<Instance> instance,
-                                                       std::unique_ptr<Context> context,
-                                                       const std::string& cache_directory,
-                                                       std::size_t retained_pipelines) {
-  std::unique_ptr<VulkanDevice> device(
-      new VulkanDevice(std::move(instance), std::move(context), cache_directory, retained_pipelines));
+                                                       std::unique_ptr<Context> context, const Options& options) {
+  std::unique_ptr<VulkanDevice> device(new VulkanDevice(std::move(instance), std::move(context), options));
   Result<std::unique_ptr<Frames>> frames = Frames::create(*device->context_, device->graveyard_);
   if (!frames) return frames.error();
   device->frames_ = std::move(*frames);

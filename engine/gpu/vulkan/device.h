@@ -89,6 +89,8 @@ class VulkanDevice final : public Device {
   }
   [[nodiscard]] Status wait_idle() override { return frames_->wait_idle(); }
   [[nodiscard]] std::vector<ModuleMemory> memory() const override { return memory_.usage(); }
+  [[nodiscard]] MemoryTotals memory_totals() const override { return memory_.totals(); }
+  void free_idle_memory() override { memory_.free_empty_blocks(); }
   [[nodiscard]] std::uint32_t pipeline_count(std::string_view module) const override {
     return pipelines_.count(module);
   }
@@ -104,10 +106,16 @@ class VulkanDevice final : public Device {
 
  private:
   [[nodiscard]] Result<CommandList*> begin(bool side_frame);
-  VulkanDevice(std::unique_ptr<Instance> instance, std::unique_ptr<Context> context, const std::string& cache_directory,
-               std::size_t retained_pipelines);
+  /// The options of both kinds of devices.
+  struct Options {
+    const std::string& cache_directory;
+    std::size_t retained_pipelines = 0;
+    MemoryOptions memory;
+    HostMemoryAllocator* memory_allocator = nullptr;
+  };
+  VulkanDevice(std::unique_ptr<Instance> instance, std::unique_ptr<Context> context, const Options& options);
   static Result<std::unique_ptr<Device>> assemble(std::unique_ptr<Instance> instance, std::unique_ptr<Context> context,
-                                                  const std::string& cache_directory, std::size_t retained_pipelines);
+                                                  const Options& options);
 
   // In dependency order; destroyed in reverse order.
   std::unique_ptr<Instance> instance_;

@@ -45,7 +45,7 @@ Result<VkSemaphore> VulkanSwapchain::make_semaphore(std::string_view name) {
   Context& context = device_.context();
   const VkSemaphoreCreateInfo info = {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
   VkSemaphore semaphore = VK_NULL_HANDLE;
-  const VkResult result = context.vk.vkCreateSemaphore(context.device, &info, nullptr, &semaphore);
+  const VkResult result = context.vk.vkCreateSemaphore(context.device, &info, context.allocation, &semaphore);
   if (result != VK_SUCCESS) return failure("A semaphore of the window could not be made", result);
   context.set_name(VK_OBJECT_TYPE_SEMAPHORE, semaphore, name);
   return semaphore;
@@ -108,8 +108,8 @@ Status VulkanSwapchain::make_swapchain(const VkSurfaceCapabilitiesKHR& capabilit
       .clipped = VK_TRUE,
       .oldSwapchain = swapchain_};
   VkSwapchainKHR made = VK_NULL_HANDLE;
-  const VkResult result = context.vk.vkCreateSwapchainKHR(context.device, &info, nullptr, &made);
-  context.vk.vkDestroySwapchainKHR(context.device, swapchain_, nullptr);
+  const VkResult result = context.vk.vkCreateSwapchainKHR(context.device, &info, context.allocation, &made);
+  context.vk.vkDestroySwapchainKHR(context.device, swapchain_, context.allocation);
   swapchain_ = result == VK_SUCCESS ? made : VK_NULL_HANDLE;
   if (result != VK_SUCCESS) return failure("The window's pictures could not be made", result);
   context.set_name(VK_OBJECT_TYPE_SWAPCHAIN_KHR, swapchain_, "window");
@@ -141,7 +141,7 @@ Status VulkanSwapchain::adopt_images(VkExtent2D extent) {
 void VulkanSwapchain::forget_images() {
   Context& context = device_.context();
   for (const ImageHandle image : images_) device_.destroy(image);
-  for (VkSemaphore semaphore : rendered_) context.vk.vkDestroySemaphore(context.device, semaphore, nullptr);
+  for (VkSemaphore semaphore : rendered_) context.vk.vkDestroySemaphore(context.device, semaphore, context.allocation);
   images_.clear();
   rendered_.clear();
   acquired_ = kNone;
@@ -201,8 +201,8 @@ VulkanSwapchain::~VulkanSwapchain() {
   Context& context = device_.context();
   context.vk.vkDeviceWaitIdle(context.device);
   forget_images();
-  for (VkSemaphore semaphore : available_) context.vk.vkDestroySemaphore(context.device, semaphore, nullptr);
-  context.vk.vkDestroySwapchainKHR(context.device, swapchain_, nullptr);
+  for (VkSemaphore semaphore : available_) context.vk.vkDestroySemaphore(context.device, semaphore, context.allocation);
+  context.vk.vkDestroySwapchainKHR(context.device, swapchain_, context.allocation);
   context.instance_functions().vkDestroySurfaceKHR(context.instance(), surface_, nullptr);
 }
 

@@ -90,6 +90,7 @@ FrameReport LastFrame::report(const ModuleSet& modules, FrameResources& resource
   report.pipelines_pending = resources.pipelines.pending();
   if (report.pipelines_pending > 0) report.pipeline_made = resources.pipelines.made_in_background();
   report.assets_pending = assets_pending;
+  report.gpu_memory = device.memory_totals();
   const std::vector<gpu::ModuleMemory> memory = device.memory();
   ModuleState engine = state_of("engine", device, memory);
   engine.demanded = true;

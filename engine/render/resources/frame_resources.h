@@ -39,6 +39,9 @@ struct FrameResources {
   /// flight.
   void free_memory();
 
+  /// Frees staging memory; the next frame takes what it needs. No frame may be in flight.
+  void free_staging() { make_rings(); }
+
   Pipelines pipelines;
   std::optional<UploadRing> uniforms;
   std::optional<UploadRing> storage;

@@ -40,6 +40,7 @@ struct ViewFaces {
   std::uint32_t casting_lights = 0;  ///< lights that requested faces
   ShadowAtlas atlas;                 ///< places of the faces; kept from frame to frame
   AtlasSide side;                    ///< texels of the atlas' side; kept from frame to frame
+  std::uint64_t shrinks = 0;         ///< calls of the module's free_idle_memory() that `side` has followed
   bool spare_for_overlays = false;   ///< the atlas keeps room for overlays
   /// Of the atlas: the view itself, the view that this one is a companion of, or a number that captures share.
   ViewId owner{0};

@@ -29,6 +29,10 @@ struct ViewMapState {
   ShadowCache cache;
   CasterHistory history;         ///< its frames are the frames of this view
   bool has_backgrounds = false;  ///< the image of backgrounds exists
+  /// The view takes turns with others in one set of images (ShadowStates::choose_images).
+  bool takes_turns = false;
+  std::uint64_t image_bytes = 0;  ///< of the images that the view would have alone
+  std::uint64_t number = 0;       ///< in the order in which views came
 
   /// The newest frame that planned maps. It may be given up.
   struct Frame {

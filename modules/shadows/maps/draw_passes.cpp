@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/render/worlds/world_id.h"
 #include "modules/shadows/atlas/drawn_faces.h"
 #include "modules/shadows/maps/images.h"
 #include "modules/shadows/maps/mips.h"
@@ -92,13 +93,19 @@ struct UsedImages {
   bool filled = false;  ///< the cache describes their contents
 };
 
-UsedImages use_images(FrameBuilder& frame, const ViewMapState& kept, const ViewFaces& view_faces,
+UsedImages use_images(FrameBuilder& frame, ShadowStates& states, const ViewMapState& kept, const ViewFaces& view_faces,
                       const ShadowKnobs& knobs) {
-  const HistoryImage atlas = use_map_image(frame, view_faces, knobs, MapImage::atlas);
-  const HistoryImage pyramid = use_map_image(frame, view_faces, knobs, MapImage::pyramid);
-  UsedImages used{{atlas.image, pyramid.image, {}}, {}, atlas.filled() && pyramid.filled()};
+  const std::uint64_t world = world_id(frame.world());
+  bool holds = true;
+  if (kept.takes_turns) {
+    holds = states.take_turn(world, kept, knobs, frame.graph().frame());
+    frame.on_commit([&states, &kept, world, knobs] { states.commit_turn(world, kept, knobs); });
+  }
+  const HistoryImage atlas = use_map_image(frame, view_faces, knobs, kept.takes_turns, MapImage::atlas);
+  const HistoryImage pyramid = use_map_image(frame, view_faces, knobs, kept.takes_turns, MapImage::pyramid);
+  UsedImages used{{atlas.image, pyramid.image, {}}, {}, holds && atlas.filled() && pyramid.filled()};
   if (!used.filled || !kept.has_backgrounds) return used;
-  const HistoryImage backgrounds = use_map_image(frame, view_faces, knobs, MapImage::backgrounds);
+  const HistoryImage backgrounds = use_map_image(frame, view_faces, knobs, kept.takes_turns, MapImage::backgrounds);
   used.backgrounds = backgrounds.image;
   used.filled = backgrounds.filled();
   return used;
@@ -116,7 +123,8 @@ void list_shadow_map_pipelines(const ShadowKnobs& knobs, PipelineList& list) {
 
 ShadowMaps add_shadow_map_passes(FrameBuilder& frame, ShadowStates& states, ViewMapState& kept,
                                  const ViewFaces& view_faces, const ShadowKnobs& knobs) {
-  UsedImages used = use_images(frame, kept, view_faces, knobs);
+  states.choose_images(view_faces, knobs, kept);
+  UsedImages used = use_images(frame, states, kept, view_faces, knobs);
   if (!frame.status().ok()) return {};
   DrawnMaps drawn = faces_to_draw(frame, kept, view_faces, knobs, !used.filled);
   auto work = std::make_shared<ViewMapWork>();
@@ -125,7 +133,7 @@ ShadowMaps add_shadow_map_passes(FrameBuilder& frame, ShadowStates& states, View
   work->held = std::move(drawn.held);
   work->background_image = used.backgrounds;
   if (!work->backgrounds.faces.empty() && !used.backgrounds)
-    work->background_image = use_map_image(frame, view_faces, knobs, MapImage::backgrounds).image;
+    work->background_image = use_map_image(frame, view_faces, knobs, kept.takes_turns, MapImage::backgrounds).image;
   frame.on_commit([work, &kept] {
     commit_maps(work->faces.faces, work->held, kept);
     if (work->background_image) kept.has_backgrounds = true;

@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: MIT
 #include "modules/shadows/maps/images.h"
 
+#include "engine/gpu/image_size.h"
 #include "modules/shadows/atlas/mip_places.h"
 #include "shaders/shadows/maps/planes_shared.h"
 #include "shaders/shadows/shadows_shared.h"
 
 namespace gloam {
 namespace {
+
+constexpr std::uint64_t kTurns = std::uint64_t{1} << 32;
 
 gpu::ImageDesc map_image(const char* name, gpu::Format format, std::uint32_t side) {
   gpu::ImageDesc desc;
@@ -45,12 +48,25 @@ gpu::ImageDesc desc_of(MapImage image, const ShadowKnobs& knobs) {
 
 }  // namespace
 
-HistoryImage use_map_image(FrameBuilder& frame, const ViewFaces& view_faces, const ShadowKnobs& knobs, MapImage image) {
+std::uint64_t map_image_bytes(const ShadowKnobs& knobs, bool backgrounds) {
+  std::uint64_t bytes = 0;
+  for (const MapImage image : {MapImage::atlas, MapImage::pyramid, MapImage::planes, MapImage::backgrounds})
+    if (image != MapImage::backgrounds || backgrounds) bytes += gpu::image_bytes(desc_of(image, knobs));
+  return bytes;
+}
+
+HistoryImage use_map_image(FrameBuilder& frame, const ViewFaces& view_faces, const ShadowKnobs& knobs, bool takes_turns,
+                           MapImage image) {
   HistoryUse use;
   use.final_access = image == MapImage::backgrounds ? gpu::Access::compute_read : gpu::Access::fragment_read;
   if (view_faces.shared != nullptr) {
     use.scope = HistoryScope::shared;
     use.instance = view_faces.owner.value;
+  }
+  if (takes_turns) {
+    use.scope = HistoryScope::shared;
+    // Above all owners of atlases, which are numbers of views.
+    use.instance = kTurns | std::uint64_t{knobs.atlas_size} << 1 | (knobs.d16 ? 1 : 0);
   }
   const auto used = frame.history_image(desc_of(image, knobs), use);
   return frame.check(used) ? *used : HistoryImage{};

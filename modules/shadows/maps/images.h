@@ -21,9 +21,14 @@ enum class MapImage : std::uint8_t {
   backgrounds,
 };
 
+/// Bytes of the images of one view: all that knobs.atlas_size calls for, with the image of backgrounds if the view has
+/// one.
+[[nodiscard]] std::uint64_t map_image_bytes(const ShadowKnobs& knobs, bool backgrounds);
+
+/// takes_turns: the image in which views of the world take turns (ShadowStates::take_turn), in place of the view's own.
 /// The image in this frame; created on first use, anew if its size or format has changed. Null, and the frame is given
 /// up, if it cannot be created.
 [[nodiscard]] HistoryImage use_map_image(FrameBuilder& frame, const ViewFaces& view_faces, const ShadowKnobs& knobs,
-                                         MapImage image);
+                                         bool takes_turns, MapImage image);
 
 }  // namespace gloam

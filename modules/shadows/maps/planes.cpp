@@ -92,7 +92,7 @@ void list_shadow_plane_pipelines(PipelineList& list) {
 
 ImageRef add_shadow_planes_pass(FrameBuilder& frame, ViewMapState& kept, const ShadowMaps& maps,
                                 const ViewFaces& view_faces, const ShadowKnobs& knobs) {
-  const HistoryImage used = use_map_image(frame, view_faces, knobs, MapImage::planes);
+  const HistoryImage used = use_map_image(frame, view_faces, knobs, kept.takes_turns, MapImage::planes);
   if (!used.image) return {};
   ImageRef planes = used.image;
   const std::vector<FacePart> parts = parts_of(maps, view_faces, kept, used.valid());

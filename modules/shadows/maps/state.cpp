@@ -5,6 +5,8 @@
 #include <iterator>
 #include <set>
 
+#include "modules/shadows/maps/images.h"
+
 namespace gloam {
 namespace {
 
@@ -31,6 +33,7 @@ void ShadowStates::begin(gpu::Device& device) {
 
 ViewMapState& ShadowStates::view(std::uint64_t world, const ViewFaces& faces, ViewId user) {
   ViewMapState& found = views_[key_of(world, faces)];
+  if (found.number == 0) found.number = ++numbers_;
   found.users.insert(user.value);
   found.last_frame = device_->frame_number();
   return found;
@@ -39,6 +42,35 @@ ViewMapState& ShadowStates::view(std::uint64_t world, const ViewFaces& faces, Vi
 const ViewMapState* ShadowStates::find(std::uint64_t world, const ViewFaces& faces) const {
   const auto found = views_.find(key_of(world, faces));
   return found == views_.end() ? nullptr : &found->second;
+}
+
+void ShadowStates::choose_images(const ViewFaces& faces, const ShadowKnobs& knobs, ViewMapState& view) const {
+  view.image_bytes = map_image_bytes(knobs, view.has_backgrounds);
+  std::uint64_t bytes = view.image_bytes;
+  for (const auto& [key, other] : views_)
+    if (other.number < view.number && !other.takes_turns) bytes += other.image_bytes;
+  view.takes_turns = faces.shared == nullptr && bytes > knobs.kept_atlas_bytes;
+}
+
+bool ShadowStates::take_turn(std::uint64_t world, const ViewMapState& view, const ShadowKnobs& knobs,
+                             std::uint32_t frame) {
+  Turns& turns = turns_[{world, knobs.atlas_size, knobs.d16}];
+  const std::uint64_t before = turns.frame == frame ? turns.last : turns.holder;
+  turns.last = view.number;
+  turns.frame = frame;
+  return before == view.number;
+}
+
+void ShadowStates::commit_turn(std::uint64_t world, const ViewMapState& view, const ShadowKnobs& knobs) {
+  turns_[{world, knobs.atlas_size, knobs.d16}].holder = view.number;
+}
+
+void ShadowStates::free_idle_memory() {
+  if (device_ != nullptr) scratch_.release(*device_);
+  staging_.reset();
+  traced_staging_.reset();
+  has_traced_ = false;
+  staging_frame_ = ~0ull;
 }
 
 void ShadowStates::skip_frame(std::uint64_t world, const ViewFaces& faces) {
@@ -81,6 +113,7 @@ Result<const ShadowScratch*> ShadowStates::scratch(std::uint64_t texels) {
 void ShadowStates::release() {
   if (device_ != nullptr) scratch_.release(*device_);
   views_.clear();
+  turns_.clear();
   extra_maps_.clear();
   staging_.reset();
   traced_staging_.reset();

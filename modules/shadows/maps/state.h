@@ -14,6 +14,7 @@
 #include "engine/gpu/device.h"
 #include "modules/shadows/atlas/view_faces.h"
 #include "modules/shadows/atlas/view_map_state.h"
+#include "modules/shadows/knobs.h"
 #include "modules/shadows/maps/scratch.h"
 
 namespace gloam {
@@ -44,6 +45,18 @@ class ShadowStates {
   [[nodiscard]] ViewMapState& view(std::uint64_t world, const ViewFaces& faces, ViewId user);
   /// The state; null if view() was never called for it, or if it has been forgotten since.
   [[nodiscard]] const ViewMapState* find(std::uint64_t world, const ViewFaces& faces) const;
+  /// Decides whether the view has images of its own for its maps, or takes turns in the images of the world: views get
+  /// their own in the order in which they came, while all of them fit in knobs.kept_atlas_bytes. Views with companions
+  /// and captures always have their own, which they share among themselves.
+  void choose_images(const ViewFaces& faces, const ShadowKnobs& knobs, ViewMapState& view) const;
+  /// Gives the images of a world to the view until the next view takes them. Returns whether they hold what the view
+  /// has left there. frame: FrameGraph::frame.
+  [[nodiscard]] bool take_turn(std::uint64_t world, const ViewMapState& view, const ShadowKnobs& knobs,
+                               std::uint32_t frame);
+  /// The frame in which the view has taken the images was committed.
+  void commit_turn(std::uint64_t world, const ViewMapState& view, const ShadowKnobs& knobs);
+  /// Frees scratch images and staging memory. The GPU is idle.
+  void free_idle_memory();
   /// Resets the state's counters and its list of drawn faces. For frames of the view that draw no maps.
   void skip_frame(std::uint64_t world, const ViewFaces& faces);
   /// The state of the view's maps outside the standard atlas; empty at the first call.
@@ -68,8 +81,19 @@ class ShadowStates {
     return {world, faces.owner.value, faces.shared != nullptr};
   }
 
+  /// Images in which views take turns, and the views (ViewMapState::number) whose maps they hold.
+  struct Turns {
+    std::uint64_t holder = 0;  ///< after the last committed frame
+    std::uint64_t last = 0;    ///< in the frame that is being declared
+    std::uint32_t frame = 0;   ///< FrameGraph::frame of `last`
+  };
+  /// World, texels of the atlas' side, and whether maps have 16 bits.
+  using TurnsKey = std::tuple<std::uint64_t, std::uint32_t, bool>;
+
   gpu::Device* device_ = nullptr;
   std::map<Key, ViewMapState> views_;
+  std::uint64_t numbers_ = 0;  ///< views that came so far
+  std::map<TurnsKey, Turns> turns_;
   std::map<std::pair<std::uint64_t, std::uint32_t>, ExtraMapState> extra_maps_;  ///< by world and view
   std::unique_ptr<UploadRing> staging_;
   std::unique_ptr<UploadRing> traced_staging_;

@@ -167,6 +167,9 @@ std::string stats_json(const RunDescription& run, std::span<const FrameSample> s
   json["systems"] = systems_json(measured);
   json["passes"] = passes_json(measured);
   json["memory"] = memory_json(last);
+  json["gpu_memory"] = {{"used_bytes", last.gpu_memory.used},
+                        {"reserved_bytes", last.gpu_memory.reserved},
+                        {"blocks", last.gpu_memory.blocks}};
   json["modules"] = modules_json(last);
   json["counters"] = counters;
   json["knobs"] = knobs_json(knobs);

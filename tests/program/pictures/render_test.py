@@ -14,7 +14,7 @@ from window_case import read_png
 SMALL = ("--size", "160x90")
 NO_SHADOWS = ("--set", "shadows.mode=off")  # for tests in which shadows only take time
 LIGHT_VIEWS = ("tile_masks", "lights_approx", "lights_accurate", "lights_difference", "light_culling:light 0", "light_list:light 0")
-STATS = {"version", "scene", "device", "size", "frames", "frame_ms", "systems", "passes", "memory", "modules", "counters", "knobs"}
+STATS = {"version", "scene", "device", "size", "frames", "frame_ms", "systems", "passes", "memory", "gpu_memory", "modules", "counters", "knobs"}
 
 
 def approaching_lamp():
@@ -95,6 +95,10 @@ class Render(ProgramCase):
             self.assertEqual(set(row), {"name", "module", "median_ms", "p90_ms", "dispatches", "draws"})
         for row in stats["memory"]:
             self.assertEqual(set(row), {"module", "gpu_bytes"})
+        totals = stats["gpu_memory"]
+        self.assertEqual(set(totals), {"used_bytes", "reserved_bytes", "blocks"})
+        self.assertEqual(totals["used_bytes"], sum(row["gpu_bytes"] for row in stats["memory"]))
+        self.assertGreaterEqual(totals["reserved_bytes"], totals["used_bytes"])
         for row in stats["modules"]:
             self.assertEqual(set(row), {"name", "demanded", "reason", "pipelines"})
             if not row["demanded"]:

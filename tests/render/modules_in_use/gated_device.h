@@ -132,6 +132,8 @@ class GatedDevice : public gpu::Device {
   [[nodiscard]] std::vector<std::uint64_t> timestamps(std::uint64_t frame) override { return inner_.timestamps(frame); }
   [[nodiscard]] Status wait_idle() override { return inner_.wait_idle(); }
   [[nodiscard]] std::vector<gpu::ModuleMemory> memory() const override { return inner_.memory(); }
+  [[nodiscard]] gpu::MemoryTotals memory_totals() const override { return inner_.memory_totals(); }
+  void free_idle_memory() override { inner_.free_idle_memory(); }
   [[nodiscard]] std::uint32_t pipeline_count(std::string_view module) const override {
     return inner_.pipeline_count(module);
   }

@@ -25,7 +25,7 @@ VkResult create_descriptor_pool(const Context& context, VkDescriptorPoolCreateFl
                                            .maxSets = sets,
                                            .poolSizeCount = static_cast<std::uint32_t>(sizes.size()),
                                            .pPoolSizes = sizes.data()};
-  return context.vk.vkCreateDescriptorPool(context.device, &info, nullptr, &pool);
+  return context.vk.vkCreateDescriptorPool(context.device, &info, context.allocation, &pool);
 }
 
 }  // namespace gloam::gpu::vulkan

@@ -24,7 +24,7 @@ bool FrameSets::Pool::has_room_for(const DescriptorCounts& more) const {
 FrameSets::~FrameSets() {
   for (const Slot& slot : slots_) {
     for (const Pool& pool : slot.pools) {
-      context_.vk.vkDestroyDescriptorPool(context_.device, pool.pool, nullptr);
+      context_.vk.vkDestroyDescriptorPool(context_.device, pool.pool, context_.allocation);
     }
   }
 }

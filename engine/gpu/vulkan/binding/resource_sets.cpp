@@ -16,7 +16,7 @@ constexpr std::uint32_t kSpareDescriptorsPerKind = 256;
 }  // namespace
 
 ResourceSets::~ResourceSets() {
-  for (VkDescriptorPool pool : pools_) context_.vk.vkDestroyDescriptorPool(context_.device, pool, nullptr);
+  for (VkDescriptorPool pool : pools_) context_.vk.vkDestroyDescriptorPool(context_.device, pool, context_.allocation);
 }
 
 Result<ResourceSetHandle> ResourceSets::create(const Pipeline& like, std::uint32_t set,

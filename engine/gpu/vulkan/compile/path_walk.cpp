@@ -37,17 +37,17 @@ class ProbeLayout {
                                                  .stageFlags = VK_SHADER_STAGE_COMPUTE_BIT};
     const VkDescriptorSetLayoutCreateInfo set = {
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, .bindingCount = 1, .pBindings = &buffer};
-    if (context.vk.vkCreateDescriptorSetLayout(context.device, &set, nullptr, &set_) != VK_SUCCESS) return;
+    if (context.vk.vkCreateDescriptorSetLayout(context.device, &set, context.allocation, &set_) != VK_SUCCESS) return;
     const VkPipelineLayoutCreateInfo layout = {
         .sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO, .setLayoutCount = 1, .pSetLayouts = &set_};
-    if (context.vk.vkCreatePipelineLayout(context.device, &layout, nullptr, &layout_) != VK_SUCCESS)
+    if (context.vk.vkCreatePipelineLayout(context.device, &layout, context.allocation, &layout_) != VK_SUCCESS)
       layout_ = VK_NULL_HANDLE;
     context.set_name(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, set_, kName);
     if (layout_ != VK_NULL_HANDLE) context.set_name(VK_OBJECT_TYPE_PIPELINE_LAYOUT, layout_, kName);
   }
   ~ProbeLayout() {
-    context_.vk.vkDestroyPipelineLayout(context_.device, layout_, nullptr);
-    context_.vk.vkDestroyDescriptorSetLayout(context_.device, set_, nullptr);
+    context_.vk.vkDestroyPipelineLayout(context_.device, layout_, context_.allocation);
+    context_.vk.vkDestroyDescriptorSetLayout(context_.device, set_, context_.allocation);
   }
   ProbeLayout(const ProbeLayout&) = delete;
   ProbeLayout& operator=(const ProbeLayout&) = delete;
@@ -65,7 +65,8 @@ double compile_time(Context& context, VkPipelineLayout layout, std::span<const s
   const VkShaderModuleCreateInfo module_info = {
       .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, .codeSize = words.size_bytes(), .pCode = words.data()};
   VkShaderModule module = VK_NULL_HANDLE;
-  if (context.vk.vkCreateShaderModule(context.device, &module_info, nullptr, &module) != VK_SUCCESS) return 0.0;
+  if (context.vk.vkCreateShaderModule(context.device, &module_info, context.allocation, &module) != VK_SUCCESS)
+    return 0.0;
   const VkComputePipelineCreateInfo info = {.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
                                             .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
                                                       .stage = VK_SHADER_STAGE_COMPUTE_BIT,
@@ -74,12 +75,12 @@ double compile_time(Context& context, VkPipelineLayout layout, std::span<const s
                                             .layout = layout};
   VkPipeline pipeline = VK_NULL_HANDLE;
   const VkResult result =
-      context.vk.vkCreateComputePipelines(context.device, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline);
+      context.vk.vkCreateComputePipelines(context.device, VK_NULL_HANDLE, 1, &info, context.allocation, &pipeline);
   const Seconds taken = std::chrono::steady_clock::now() - start;
   context.set_name(VK_OBJECT_TYPE_SHADER_MODULE, module, kName);
   if (result == VK_SUCCESS) context.set_name(VK_OBJECT_TYPE_PIPELINE, pipeline, kName);
-  context.vk.vkDestroyPipeline(context.device, pipeline, nullptr);
-  context.vk.vkDestroyShaderModule(context.device, module, nullptr);
+  context.vk.vkDestroyPipeline(context.device, pipeline, context.allocation);
+  context.vk.vkDestroyShaderModule(context.device, module, context.allocation);
   return result == VK_SUCCESS ? taken.count() : 0.0;
 }
 

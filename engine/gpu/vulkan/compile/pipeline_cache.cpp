@@ -79,7 +79,7 @@ PipelineCache::PipelineCache(Context& context, const std::string& directory) : c
   VkPipelineCacheCreateInfo info = {.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO,
                                     .initialDataSize = data.size(),
                                     .pInitialData = data.data()};
-  VkResult result = context.vk.vkCreatePipelineCache(context.device, &info, nullptr, &cache_);
+  VkResult result = context.vk.vkCreatePipelineCache(context.device, &info, context.allocation, &cache_);
   if (result != VK_SUCCESS) {
     cache_ = VK_NULL_HANDLE;
     context.log().warning("No pipeline cache: " + describe(result));
@@ -91,7 +91,7 @@ PipelineCache::PipelineCache(Context& context, const std::string& directory) : c
 PipelineCache::~PipelineCache() {
   if (cache_ == VK_NULL_HANDLE) return;
   if (!file_.empty()) save();
-  context_.vk.vkDestroyPipelineCache(context_.device, cache_, nullptr);
+  context_.vk.vkDestroyPipelineCache(context_.device, cache_, context_.allocation);
 }
 
 void PipelineCache::save() const {

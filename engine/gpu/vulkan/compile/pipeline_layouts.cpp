@@ -73,10 +73,10 @@ Result<ShaderInterface> merge_stages(const Context& context, std::string_view pi
 
 PipelineLayouts::~PipelineLayouts() {
   for (const auto& [key, layout] : layouts_) {
-    context_.vk.vkDestroyPipelineLayout(context_.device, layout.layout, nullptr);
+    context_.vk.vkDestroyPipelineLayout(context_.device, layout.layout, context_.allocation);
   }
   for (const auto& [key, layout] : set_layouts_) {
-    context_.vk.vkDestroyDescriptorSetLayout(context_.device, layout, nullptr);
+    context_.vk.vkDestroyDescriptorSetLayout(context_.device, layout, context_.allocation);
   }
 }
 
@@ -101,7 +101,7 @@ Result<VkDescriptorSetLayout> PipelineLayouts::set_layout(std::span<const Reflec
       .bindingCount = static_cast<std::uint32_t>(vk_bindings.size()),
       .pBindings = vk_bindings.data()};
   VkDescriptorSetLayout layout = VK_NULL_HANDLE;
-  const VkResult result = context_.vk.vkCreateDescriptorSetLayout(context_.device, &info, nullptr, &layout);
+  const VkResult result = context_.vk.vkCreateDescriptorSetLayout(context_.device, &info, context_.allocation, &layout);
   if (result != VK_SUCCESS) return failure("A descriptor set layout could not be made", result);
   context_.set_name(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, layout,
                     "set layout of " + std::to_string(bindings.size()) + " bindings");
@@ -129,7 +129,7 @@ Result<const PipelineLayout*> PipelineLayouts::find_or_create(const ShaderInterf
                                            .pSetLayouts = made.sets.data(),
                                            .pushConstantRangeCount = shader.push_constant_bytes > 0 ? 1u : 0u,
                                            .pPushConstantRanges = &range};
-  const VkResult result = context_.vk.vkCreatePipelineLayout(context_.device, &info, nullptr, &made.layout);
+  const VkResult result = context_.vk.vkCreatePipelineLayout(context_.device, &info, context_.allocation, &made.layout);
   if (result != VK_SUCCESS) return failure("A pipeline layout could not be made", result);
   context_.set_name(VK_OBJECT_TYPE_PIPELINE_LAYOUT, made.layout,
                     "pipeline layout of " + std::to_string(resources) + " resources");

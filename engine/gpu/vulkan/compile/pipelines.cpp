@@ -84,8 +84,8 @@ Result<PipelineHandle> Pipelines::create(const ComputePipelineDesc& desc) {
                                             .layout = prepared->pipeline.layout->layout};
   return finish(std::move(prepared->pipeline), retained_.enabled() ? description_hash(desc, ShaderIdentity::words) : 0,
                 [&](VkPipeline& compiled) {
-                  return context_.vk.vkCreateComputePipelines(context_.device, cache_.handle(), 1, &info, nullptr,
-                                                              &compiled);
+                  return context_.vk.vkCreateComputePipelines(context_.device, cache_.handle(), 1, &info,
+                                                              context_.allocation, &compiled);
                 });
 }
 
@@ -115,8 +115,8 @@ Result<PipelineHandle> Pipelines::create(const GraphicsPipelineDesc& desc) {
   info.layout = prepared->pipeline.layout->layout;
   return finish(std::move(prepared->pipeline), retained_.enabled() ? description_hash(desc, ShaderIdentity::words) : 0,
                 [&](VkPipeline& compiled) {
-                  return context_.vk.vkCreateGraphicsPipelines(context_.device, cache_.handle(), 1, &info, nullptr,
-                                                               &compiled);
+                  return context_.vk.vkCreateGraphicsPipelines(context_.device, cache_.handle(), 1, &info,
+                                                               context_.allocation, &compiled);
                 });
 }
 

@@ -18,7 +18,7 @@ namespace gloam::gpu::vulkan {
 class PipelineObject {
  public:
   PipelineObject(Context& context, VkPipeline pipeline) : context_(context), pipeline_(pipeline) {}
-  ~PipelineObject() { context_.vk.vkDestroyPipeline(context_.device, pipeline_, nullptr); }
+  ~PipelineObject() { context_.vk.vkDestroyPipeline(context_.device, pipeline_, context_.allocation); }
   PipelineObject(const PipelineObject&) = delete;
   PipelineObject& operator=(const PipelineObject&) = delete;
   [[nodiscard]] VkPipeline get() const { return pipeline_; }

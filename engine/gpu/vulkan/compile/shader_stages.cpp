@@ -36,7 +36,8 @@ ShaderStages::ShaderStages(ShaderStages&& other) noexcept
     : context_(other.context_), stages_(std::exchange(other.stages_, {})) {}
 
 ShaderStages::~ShaderStages() {
-  for (const Stage& stage : stages_) context_->vk.vkDestroyShaderModule(context_->device, stage.module, nullptr);
+  for (const Stage& stage : stages_)
+    context_->vk.vkDestroyShaderModule(context_->device, stage.module, context_->allocation);
 }
 
 Status ShaderStages::add(const ShaderCode& code, ShaderStage stage, std::span<const NumberedConstant> constants) {
@@ -59,7 +60,7 @@ Status ShaderStages::add(const ShaderCode& code, ShaderStage stage, std::span<co
   const VkShaderModuleCreateInfo info = {
       .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, .codeSize = words.size_bytes(), .pCode = words.data()};
   VkShaderModule module = VK_NULL_HANDLE;
-  const VkResult result = context_->vk.vkCreateShaderModule(context_->device, &info, nullptr, &module);
+  const VkResult result = context_->vk.vkCreateShaderModule(context_->device, &info, context_->allocation, &module);
   if (result != VK_SUCCESS) return failure("Shader \"" + std::string(code.name) + "\" was refused", result);
   context_->set_name(VK_OBJECT_TYPE_SHADER_MODULE, module, code.name);
   Stage& added = stages_.emplace_back();

@@ -26,7 +26,7 @@ VkBufferCreateInfo create_info(const BufferDesc& desc) {
 
 Buffers::~Buffers() {
   for (const Buffer& b : table_.remove_all())
-    if (b.memory) context_.vk.vkDestroyBuffer(context_.device, b.buffer, nullptr);
+    if (b.memory) context_.vk.vkDestroyBuffer(context_.device, b.buffer, context_.allocation);
 }
 
 Status Buffers::check(const BufferDesc& desc) const {
@@ -43,7 +43,7 @@ Result<Buffer> Buffers::make(const BufferDesc& desc) const {
   Buffer buffer;
   buffer.desc = desc;
   const VkBufferCreateInfo info = create_info(desc);
-  const VkResult result = context_.vk.vkCreateBuffer(context_.device, &info, nullptr, &buffer.buffer);
+  const VkResult result = context_.vk.vkCreateBuffer(context_.device, &info, context_.allocation, &buffer.buffer);
   if (result != VK_SUCCESS) return failure(cannot_make(desc), result);
   context_.set_name(VK_OBJECT_TYPE_BUFFER, buffer.buffer, desc.name);
   return buffer;
@@ -54,7 +54,7 @@ Result<BufferHandle> Buffers::bind(Buffer buffer, const AllocationOwner& memory,
   const VkResult result =
       context_.vk.vkBindBufferMemory(context_.device, buffer.buffer, memory->memory, memory->offset + offset);
   if (result == VK_SUCCESS) return table_.insert(std::move(buffer));
-  context_.vk.vkDestroyBuffer(context_.device, buffer.buffer, nullptr);
+  context_.vk.vkDestroyBuffer(context_.device, buffer.buffer, context_.allocation);
   return failure(cannot_make(buffer.desc), result);
 }
 
@@ -65,7 +65,7 @@ Result<BufferHandle> Buffers::create(const BufferDesc& desc) {
   context_.vk.vkGetBufferMemoryRequirements(context_.device, buffer->buffer, &request.requirements);
   const Result<AllocationOwner> memory = memory_.allocate(request);
   if (memory) return bind(std::move(*buffer), *memory, 0);
-  context_.vk.vkDestroyBuffer(context_.device, buffer->buffer, nullptr);
+  context_.vk.vkDestroyBuffer(context_.device, buffer->buffer, context_.allocation);
   return memory.error();
 }
 
@@ -103,7 +103,7 @@ void Buffers::destroy(BufferHandle handle) {
   Buffer buffer = table_.remove(handle);
   if (!buffer.memory) return;
   graveyard_.bury([this, vk_buffer = buffer.buffer, memory = std::move(buffer.memory)] {
-    context_.vk.vkDestroyBuffer(context_.device, vk_buffer, nullptr);
+    context_.vk.vkDestroyBuffer(context_.device, vk_buffer, context_.allocation);
   });
 }
 

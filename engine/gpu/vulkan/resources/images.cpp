@@ -158,7 +158,7 @@ Result<Image> Images::make(const ImageDesc& desc) const {
   Image image;
   image.desc = desc;
   image.access = Subresources<Access>(desc.mips, desc.layers);
-  const VkResult result = context_.vk.vkCreateImage(context_.device, &info, nullptr, &image.image);
+  const VkResult result = context_.vk.vkCreateImage(context_.device, &info, context_.allocation, &image.image);
   if (result != VK_SUCCESS) return failure(cannot_make(desc), result);
   context_.set_name(VK_OBJECT_TYPE_IMAGE, image.image, desc.name);
   return image;
@@ -190,7 +190,7 @@ Result<ImageHandle> Images::create_in(const ImageDesc& desc, const AllocationOwn
   Result<Image> image = make(desc);
   if (!image) return image.error();
   if (const Status bound = bind(*image, block, offset); !bound) {
-    context_.vk.vkDestroyImage(context_.device, image->image, nullptr);
+    context_.vk.vkDestroyImage(context_.device, image->image, context_.allocation);
     return bound.error();
   }
   return table_.insert(std::move(*image));
@@ -206,7 +206,7 @@ Result<std::vector<ImageHandle>> Images::create_aliased(std::span<const ImageDes
   GLOAM_ASSERT(!descs.empty(), "there must be an image to make");
   std::vector<Image> images;
   const auto fail = [&](const Error& error) {
-    for (const Image& image : images) context_.vk.vkDestroyImage(context_.device, image.image, nullptr);
+    for (const Image& image : images) context_.vk.vkDestroyImage(context_.device, image.image, context_.allocation);
     return error;
   };
   MemoryRequest request = {.image = true, .module = descs.front().module, .name = descs.front().name};
@@ -241,8 +241,9 @@ ImageHandle Images::adopt(const ImageDesc& desc, VkImage vk_image) {
 }
 
 void Images::release(const Image& image) const {
-  for (const auto& [key, view] : image.views) context_.vk.vkDestroyImageView(context_.device, view, nullptr);
-  if (image.memory) context_.vk.vkDestroyImage(context_.device, image.image, nullptr);
+  for (const auto& [key, view] : image.views)
+    context_.vk.vkDestroyImageView(context_.device, view, context_.allocation);
+  if (image.memory) context_.vk.vkDestroyImage(context_.device, image.image, context_.allocation);
 }
 
 void Images::destroy(ImageHandle handle) {
@@ -262,7 +263,7 @@ Result<VkImageView> Images::view(ImageHandle handle, const ViewKey& key) {
                                       .subresourceRange = {aspect_of(image.desc.format), key.first_mip, key.mip_count,
                                                            key.first_layer, key.layer_count}};
   VkImageView view = VK_NULL_HANDLE;
-  const VkResult result = context_.vk.vkCreateImageView(context_.device, &info, nullptr, &view);
+  const VkResult result = context_.vk.vkCreateImageView(context_.device, &info, context_.allocation, &view);
   if (result != VK_SUCCESS) return failure("A view of image \"" + image.desc.name + "\" could not be made", result);
   context_.set_name(VK_OBJECT_TYPE_IMAGE_VIEW, view, image.desc.name);
   image.views.emplace_back(key, view);

@@ -3,6 +3,8 @@
 #include "engine/gpu/vulkan/resources/memory.h"
 
 #include <algorithm>
+#include <bit>
+#include <iterator>
 
 #include "engine/gpu/vulkan/errors.h"
 
@@ -30,7 +32,26 @@ int fitness(VkMemoryPropertyFlags flags, MemoryKind kind) {
   return 0;
 }
 
+/// The properties that a host's allocator should prefer; in the order of fitness().
+VkMemoryPropertyFlags preferred_flags(MemoryKind kind) {
+  switch (kind) {
+    case MemoryKind::device:
+      return VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
+    case MemoryKind::upload:
+      return 0;
+    case MemoryKind::readback:
+      return VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+  }
+  return 0;
+}
+
 }  // namespace
+
+MemoryAllocator::MemoryAllocator(Context& context, const MemoryOptions& options, HostMemoryAllocator* host)
+    : context_(context), options_(options), host_(host) {
+  GLOAM_ASSERT(options.block_bytes >= MemoryOptions::kLeastBlockBytes,
+               "MemoryOptions::block_bytes is at least MemoryOptions::kLeastBlockBytes");
+}
 
 MemoryAllocator::~MemoryAllocator() {
   while (!blocks_.empty()) release(blocks_.begin());
@@ -69,13 +90,55 @@ std::vector<std::uint32_t> MemoryAllocator::types_by_fitness(std::uint32_t allow
 
 Result<AllocationOwner> MemoryAllocator::allocate(const MemoryRequest& request) {
   const std::lock_guard lock(mutex_);
+  const auto no_memory = [&] {
+    return "No memory for \"" + std::string(request.name) + "\" of module \"" + std::string(request.module) + "\" (" +
+           std::to_string(request.requirements.size) + " bytes)";
+  };
   VkResult result = VK_ERROR_OUT_OF_DEVICE_MEMORY;
-  for (const std::uint32_t type : types_by_fitness(request.requirements.memoryTypeBits, request.kind)) {
-    if (auto allocation = allocate_in(type, request, result)) return std::move(*allocation);
+  if (host_ != nullptr) {
+    if (auto allocation = allocate_from_host(request, result)) return std::move(*allocation);
+  } else {
+    for (const std::uint32_t type : types_by_fitness(request.requirements.memoryTypeBits, request.kind)) {
+      if (auto allocation = allocate_in(type, request, result)) return std::move(*allocation);
+    }
   }
-  return failure("No memory for \"" + std::string(request.name) + "\" of module \"" + std::string(request.module) +
-                     "\" (" + std::to_string(request.requirements.size) + " bytes)",
-                 result);
+  if (options_.budget_bytes > 0 && reserved_ + request.requirements.size > options_.budget_bytes) {
+    return Error{ErrorKind::failed, no_memory() + ": MemoryOptions::budget_bytes is " +
+                                        std::to_string(options_.budget_bytes) + ", of which " +
+                                        std::to_string(reserved_) + " are reserved"};
+  }
+  return failure(no_memory(), result);
+}
+
+std::optional<AllocationOwner> MemoryAllocator::allocate_from_host(const MemoryRequest& request, VkResult& result) {
+  const std::vector<std::uint32_t> types = types_by_fitness(request.requirements.memoryTypeBits, request.kind);
+  const std::uint64_t size = request.requirements.size;
+  if (types.empty() || !make_room(size)) return std::nullopt;
+  HostMemoryRequest asked = {.requirements = request.requirements,
+                             .required = required_flags(request.kind),
+                             .preferred = preferred_flags(request.kind),
+                             .mapped = request.kind != MemoryKind::device,
+                             .image = request.image,
+                             .block = request.block,
+                             .module = request.module,
+                             .name = request.name};
+  asked.requirements.memoryTypeBits = 0;
+  for (const std::uint32_t type : types) asked.requirements.memoryTypeBits |= 1u << type;
+  if (request.block)
+    asked.requirements.alignment =
+        std::max(asked.requirements.alignment, context_.physical.limits.bufferImageGranularity);
+  HostMemory given;
+  result = host_->allocate(asked, given);
+  if (result != VK_SUCCESS) return std::nullopt;
+  GLOAM_ASSERT(given.memory != VK_NULL_HANDLE &&
+                   given.offset % std::max<VkDeviceSize>(asked.requirements.alignment, 1) == 0 &&
+                   (!asked.mapped || given.mapped != nullptr),
+               "HostMemoryAllocator::allocate gives aligned memory, mapped if the request says so");
+  blocks_.push_back(
+      {pool_of(request), 0, VK_NULL_HANDLE, static_cast<std::byte*>(given.mapped), RangeAllocator(size), true, given});
+  reserved_ += size;
+  const auto block = std::prev(blocks_.end());
+  return take(block, block->ranges.allocate(size).value(), request);
 }
 
 std::optional<AllocationOwner> MemoryAllocator::allocate_in(std::uint32_t type, const MemoryRequest& request,
@@ -83,43 +146,59 @@ std::optional<AllocationOwner> MemoryAllocator::allocate_in(std::uint32_t type, 
   const std::uint64_t size = request.requirements.size;
   const std::uint64_t alignment = std::max<std::uint64_t>(request.requirements.alignment, 1);
   const Pool pool = pool_of(request);
-  const bool dedicated = request.block || size > kBlockBytes / 2;
+  const bool dedicated = request.block || size > options_.block_bytes / 2;
   if (!dedicated) {
     for (auto block = blocks_.begin(); block != blocks_.end(); ++block) {
       if (block->type != type || block->pool != pool || block->dedicated) continue;
       if (auto offset = block->ranges.allocate(size, alignment)) return take(block, *offset, request);
     }
   }
-  result = add_block(type, pool, dedicated ? size : kBlockBytes, dedicated);
+  result = add_block(type, pool, dedicated ? size : next_block_bytes(type, pool, size), dedicated);
   if (result != VK_SUCCESS && !dedicated) result = add_block(type, pool, size, true);  // no room for a whole block
   if (result != VK_SUCCESS) return std::nullopt;
   const auto block = std::prev(blocks_.end());
   return take(block, block->ranges.allocate(size, alignment).value(), request);
 }
 
+std::uint64_t MemoryAllocator::next_block_bytes(std::uint32_t type, Pool pool, std::uint64_t size) const {
+  std::uint64_t there = 0;
+  for (const Block& block : blocks_)
+    if (block.type == type && block.pool == pool && !block.dedicated) there += block.ranges.capacity();
+  const std::uint64_t least = std::max(MemoryOptions::kLeastBlockBytes, std::bit_ceil(2 * size));
+  return std::min(options_.block_bytes, std::max(least, std::bit_ceil(there)));
+}
+
+bool MemoryAllocator::make_room(std::uint64_t bytes) {
+  if (options_.budget_bytes == 0 || reserved_ + bytes <= options_.budget_bytes) return true;
+  release_empty_blocks();
+  return reserved_ + bytes <= options_.budget_bytes;
+}
+
 VkResult MemoryAllocator::add_block(std::uint32_t type, Pool pool, std::uint64_t bytes, bool dedicated) {
-  if (bytes > context_.physical.max_allocation_size) return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+  if (bytes > context_.physical.max_allocation_size || !make_room(bytes)) return VK_ERROR_OUT_OF_DEVICE_MEMORY;
   const VkMemoryAllocateInfo info = {
       .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, .allocationSize = bytes, .memoryTypeIndex = type};
   VkDeviceMemory memory = VK_NULL_HANDLE;
-  VkResult result = context_.vk.vkAllocateMemory(context_.device, &info, nullptr, &memory);
+  VkResult result = context_.vk.vkAllocateMemory(context_.device, &info, context_.allocation, &memory);
   if (result != VK_SUCCESS) return result;
   void* mapped = nullptr;
   if (pool == Pool::upload || pool == Pool::readback) {
     result = context_.vk.vkMapMemory(context_.device, memory, 0, VK_WHOLE_SIZE, 0, &mapped);
     if (result != VK_SUCCESS) {
-      context_.vk.vkFreeMemory(context_.device, memory, nullptr);
+      context_.vk.vkFreeMemory(context_.device, memory, context_.allocation);
       return result;
     }
   }
-  blocks_.push_back({pool, type, memory, static_cast<std::byte*>(mapped), RangeAllocator(bytes), dedicated});
+  blocks_.push_back({pool, type, memory, static_cast<std::byte*>(mapped), RangeAllocator(bytes), dedicated, {}});
+  reserved_ += bytes;
   context_.set_name(VK_OBJECT_TYPE_DEVICE_MEMORY, memory, dedicated ? "memory of one object" : "memory block");
   return VK_SUCCESS;
 }
 
 AllocationOwner MemoryAllocator::take(Blocks::iterator block, std::uint64_t offset, const MemoryRequest& request) {
-  auto* allocation = new Allocation{block->memory,
-                                    offset,
+  const bool of_host = block->memory == VK_NULL_HANDLE;
+  auto* allocation = new Allocation{of_host ? block->host.memory : block->memory,
+                                    of_host ? block->host.offset : offset,
                                     request.requirements.size,
                                     block->mapped == nullptr ? nullptr : block->mapped + offset,
                                     {{std::string(request.module), request.requirements.size}}};
@@ -160,7 +239,7 @@ void MemoryAllocator::account(const AllocationOwner& allocation, std::span<const
 void MemoryAllocator::give_back(Blocks::iterator block, const Allocation& allocation) {
   const std::lock_guard lock(mutex_);
   remove_shares(allocation);
-  block->ranges.free(allocation.offset);
+  block->ranges.free(block->memory == VK_NULL_HANDLE ? 0 : allocation.offset);
   if (!block->ranges.empty()) return;
   // Keeps one empty block per memory type and pool, so that an object that is created and destroyed every frame does
   // not allocate memory from the driver each time.
@@ -171,8 +250,34 @@ void MemoryAllocator::give_back(Blocks::iterator block, const Allocation& alloca
 }
 
 void MemoryAllocator::release(Blocks::iterator block) {
-  context_.vk.vkFreeMemory(context_.device, block->memory, nullptr);
+  reserved_ -= block->ranges.capacity();
+  if (block->memory == VK_NULL_HANDLE) {
+    host_->free(block->host);
+  } else {
+    context_.vk.vkFreeMemory(context_.device, block->memory, context_.allocation);
+  }
   blocks_.erase(block);
+}
+
+void MemoryAllocator::release_empty_blocks() {
+  for (auto block = blocks_.begin(); block != blocks_.end();) {
+    const auto next = std::next(block);
+    if (block->ranges.empty()) release(block);
+    block = next;
+  }
+}
+
+void MemoryAllocator::free_empty_blocks() {
+  const std::lock_guard lock(mutex_);
+  release_empty_blocks();
+}
+
+MemoryTotals MemoryAllocator::totals() const {
+  const std::lock_guard lock(mutex_);
+  MemoryTotals totals = {
+      .reserved = reserved_, .blocks = static_cast<std::uint32_t>(blocks_.size()), .budget = options_.budget_bytes};
+  for (const auto& [module, bytes] : module_bytes_) totals.used += bytes;
+  return totals;
 }
 
 std::vector<ModuleMemory> MemoryAllocator::usage() const {

@@ -10,7 +10,8 @@
 namespace gloam::gpu::vulkan {
 
 Samplers::~Samplers() {
-  for (const auto& [desc, sampler] : samplers_) context_.vk.vkDestroySampler(context_.device, sampler, nullptr);
+  for (const auto& [desc, sampler] : samplers_)
+    context_.vk.vkDestroySampler(context_.device, sampler, context_.allocation);
 }
 
 Result<SamplerHandle> Samplers::find_or_create(const SamplerDesc& desc) {
@@ -34,7 +35,7 @@ Result<SamplerHandle> Samplers::find_or_create(const SamplerDesc& desc) {
       .compareOp = desc.compare ? to_vulkan(desc.compare_op) : VK_COMPARE_OP_NEVER,
       .maxLod = VK_LOD_CLAMP_NONE};
   VkSampler sampler = VK_NULL_HANDLE;
-  const VkResult result = context_.vk.vkCreateSampler(context_.device, &info, nullptr, &sampler);
+  const VkResult result = context_.vk.vkCreateSampler(context_.device, &info, context_.allocation, &sampler);
   if (result != VK_SUCCESS) return failure("A sampler could not be made", result);
   context_.set_name(VK_OBJECT_TYPE_SAMPLER, sampler, desc.compare ? "comparing sampler" : "sampler");
   samplers_.emplace_back(desc, sampler);

@@ -44,6 +44,10 @@ Result<std::unique_ptr<Context>> Context::adopt(const Instance& instance, const 
   context->owned_ = false;
   context->device = host.device;
   context->queue = host.queue;
+  if (host.allocation_callbacks != nullptr) {
+    context->callbacks_ = *host.allocation_callbacks;
+    context->allocation = &context->callbacks_;
+  }
   if (host.queue_mutex != nullptr) context->queue_mutex_ = host.queue_mutex;
   GLOAM_TRY(context->load_functions());
   return context;

@@ -49,6 +49,8 @@ class Context {
   VkDevice device = VK_NULL_HANDLE;
   VkQueue queue = VK_NULL_HANDLE;
   DeviceFunctions vk;
+  /// Of the host; passed to every call that takes callbacks. Null: the driver allocates by itself.
+  const VkAllocationCallbacks* allocation = nullptr;
 
  private:
   explicit Context(const Instance& instance, const PhysicalDevice& chosen) : physical(chosen), instance_(&instance) {}
@@ -58,6 +60,7 @@ class Context {
 
   const Instance* instance_;
   bool owned_ = true;
+  VkAllocationCallbacks callbacks_ = {};  ///< the host's, to which `allocation` points
   std::mutex own_queue_mutex_;
   std::mutex* queue_mutex_ = &own_queue_mutex_;
 };

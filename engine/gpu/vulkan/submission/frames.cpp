@@ -29,7 +29,7 @@ Status Frames::make() {
   const VkSemaphoreTypeCreateInfo type = {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO,
                                           .semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE};
   const VkSemaphoreCreateInfo info = {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, .pNext = &type};
-  const VkResult result = context_.vk.vkCreateSemaphore(context_.device, &info, nullptr, &timeline_);
+  const VkResult result = context_.vk.vkCreateSemaphore(context_.device, &info, context_.allocation, &timeline_);
   if (result != VK_SUCCESS) return failure("The frame timeline could not be made", result);
   context_.set_name(VK_OBJECT_TYPE_SEMAPHORE, timeline_, "frames");
   for (std::uint32_t i = 0; i < slots_.size(); ++i) GLOAM_TRY(make_slot(slots_[i], i));
@@ -41,7 +41,7 @@ Status Frames::make_slot(Slot& slot, std::uint32_t index) {
   const VkCommandPoolCreateInfo pool = {.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
                                         .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
                                         .queueFamilyIndex = context_.physical.queue_family};
-  VkResult result = vk.vkCreateCommandPool(context_.device, &pool, nullptr, &slot.pool);
+  VkResult result = vk.vkCreateCommandPool(context_.device, &pool, context_.allocation, &slot.pool);
   if (result != VK_SUCCESS) return failure("A command pool could not be made", result);
   const VkCommandBufferAllocateInfo commands = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
                                                 .commandPool = slot.pool,
@@ -52,7 +52,7 @@ Status Frames::make_slot(Slot& slot, std::uint32_t index) {
   const VkQueryPoolCreateInfo queries = {.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
                                          .queryType = VK_QUERY_TYPE_TIMESTAMP,
                                          .queryCount = Device::kTimestampsPerFrame};
-  result = vk.vkCreateQueryPool(context_.device, &queries, nullptr, &slot.queries);
+  result = vk.vkCreateQueryPool(context_.device, &queries, context_.allocation, &slot.queries);
   if (result != VK_SUCCESS) return failure("A timestamp pool could not be made", result);
   const std::string name = "frame slot " + std::to_string(index);
   context_.set_name(VK_OBJECT_TYPE_COMMAND_POOL, slot.pool, name);
@@ -63,10 +63,10 @@ Status Frames::make_slot(Slot& slot, std::uint32_t index) {
 
 Frames::~Frames() {
   for (const Slot& slot : slots_) {
-    context_.vk.vkDestroyCommandPool(context_.device, slot.pool, nullptr);
-    context_.vk.vkDestroyQueryPool(context_.device, slot.queries, nullptr);
+    context_.vk.vkDestroyCommandPool(context_.device, slot.pool, context_.allocation);
+    context_.vk.vkDestroyQueryPool(context_.device, slot.queries, context_.allocation);
   }
-  context_.vk.vkDestroySemaphore(context_.device, timeline_, nullptr);
+  context_.vk.vkDestroySemaphore(context_.device, timeline_, context_.allocation);
 }
 
 Status Frames::wait_for_frames(std::uint64_t completed) {

@@ -40,7 +40,7 @@ TEST_F(Memory, is_counted_by_module_in_order_and_returns_to_nothing) {
 }
 
 TEST_F(Memory, objects_larger_than_half_a_block_work_too) {
-  constexpr std::uint64_t kLarge = (vulkan::MemoryAllocator::kBlockBytes / 2) + 4096;
+  constexpr std::uint64_t kLarge = (MemoryOptions{}.block_bytes / 2) + 4096;
   const BufferHandle large = make("test", kLarge, MemoryKind::readback);
   test::run_frame(device(), [&](CommandList& commands) {
     commands.fill_buffer(large, kLarge - 8, 8, 0xabcdu);
