@@ -13,6 +13,7 @@
 #include "shaders/gpu_test/shaders.h"
 #include "tests/gpu/vulkan/device_fixture.h"
 #include "tests/support/expect_assert.h"
+#include "tests/support/lent_device.h"
 
 namespace gloam::gpu {
 namespace {
@@ -21,22 +22,7 @@ namespace {
 class Interop : public VulkanTest {
  protected:
   [[nodiscard]] vulkan::Context& context() { return dynamic_cast<vulkan::VulkanDevice&>(device()).context(); }
-  [[nodiscard]] HostDevice lend() {
-    vulkan::Context& c = context();
-    features_ = vulkan::features_to_enable(c.physical.features);
-    HostDevice host;
-    host.instance = c.instance();
-    host.physical_device = c.physical.handle;
-    host.device = c.device;
-    host.queue = c.queue;
-    host.queue_family = c.physical.queue_family;
-    host.get_instance_proc_addr = vulkan::find_loader();
-    if (c.physical.push_descriptors) host.enabled_extensions = useful_device_extensions();
-    host.enabled_features = features_.chain();
-    host.queue_mutex = &c.queue_mutex();
-    host.log = &test::gpu_log();
-    return host;
-  }
+  [[nodiscard]] HostDevice lend() { return test::lend(device(), features_); }
   [[nodiscard]] static std::string refusal_of(const HostDevice& host) {
     const auto refused = create_vulkan_device_on(host);
     EXPECT_FALSE(refused.ok());
