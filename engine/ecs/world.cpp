@@ -8,7 +8,8 @@
 
 namespace gloam {
 
-World::World(const WorldLimits& limits) : limits_(limits), records_(limits.max_entities) {}
+World::World(const WorldLimits& limits)
+    : limits_(limits), records_(limits.max_entities, limits.allocator), fronts_(limits.allocator) {}
 
 World::~World() = default;
 

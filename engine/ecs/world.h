@@ -36,6 +36,10 @@ class View;
 struct WorldLimits {
   std::uint32_t max_rows_per_archetype = 1u << 23;
   std::uint32_t max_entities = 1u << 26;
+  /// Gives the memory of components and of the entity table, in place of address space of the system; must outlive the
+  /// world. What the limits above allow is then allocated at once: the entity table with the world, the columns of an
+  /// archetype when it outgrows its first rows. So lower the limits.
+  CpuAllocator* allocator = nullptr;
 };
 
 /// Entities, their components, and resources. Two worlds share nothing.

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/frame/history.h"
 
+#include <map>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -99,6 +101,13 @@ void History::release_view(std::uint32_t view) {
 }
 void History::release_module(std::string_view module) {
   state_->release_if([&](const frame::HistoryKey& key) { return key.module == module; });
+}
+
+std::map<std::string, std::uint64_t> History::bytes_of_view(std::uint32_t view) const {
+  std::map<std::string, std::uint64_t> bytes;
+  state_->images.add_bytes_of_view(view, bytes);
+  state_->buffers.add_bytes_of_view(view, bytes);
+  return bytes;
 }
 
 std::size_t History::size() const { return state_->images.size() + state_->buffers.size(); }

@@ -6,7 +6,9 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <map>
 #include <memory>
+#include <string>
 #include <string_view>
 
 #include "engine/core/result.h"
@@ -141,6 +143,8 @@ class History {
   void release_world(std::uint64_t world);
   void release_view(std::uint32_t view);
   void release_module(std::string_view module);
+  /// Bytes of the resources with HistoryScope::view of this view, in all worlds, by module.
+  [[nodiscard]] std::map<std::string, std::uint64_t> bytes_of_view(std::uint32_t view) const;
   /// The number of resources; a pair counts as one.
   [[nodiscard]] std::size_t size() const;
 

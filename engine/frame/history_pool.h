@@ -19,6 +19,7 @@
 #include "engine/frame/frame_graph.h"
 #include "engine/frame/history.h"
 #include "engine/gpu/device.h"
+#include "engine/gpu/image_size.h"
 
 namespace gloam::frame {
 
@@ -42,6 +43,7 @@ struct HistoryImages {
     };
     return tie(a) == tie(b);
   }
+  [[nodiscard]] static std::uint64_t bytes(const Desc& desc) { return gpu::image_bytes(desc); }
   [[nodiscard]] static Result<Handle> create(gpu::Device& device, const Desc& desc) {
     return device.create_image(desc);
   }
@@ -57,6 +59,7 @@ struct HistoryBuffers {
   [[nodiscard]] static bool same(const Desc& a, const Desc& b) {
     return std::tie(a.size, a.usage, a.memory) == std::tie(b.size, b.usage, b.memory);
   }
+  [[nodiscard]] static std::uint64_t bytes(const Desc& desc) { return desc.size; }
   [[nodiscard]] static Result<Handle> create(gpu::Device& device, const Desc& desc) {
     return device.create_buffer(desc);
   }
@@ -99,6 +102,12 @@ class HistoryPool {
   void release_unused(std::uint64_t now);
   void release_if(const std::function<bool(const HistoryKey&)>& unwanted);
   void release_view(std::uint32_t view);
+  /// Adds the bytes of a view's own resources to those of their modules.
+  void add_bytes_of_view(std::uint32_t view, std::map<std::string, std::uint64_t>& bytes) const {
+    for (const auto& [key, item] : items_)
+      if (key.view == view && item.contents.sides > 0)
+        bytes[key.module] += item.contents.sides * Kind::bytes(item.contents.desc);
+  }
   [[nodiscard]] std::size_t size() const { return items_.size(); }
 
  private:

@@ -48,7 +48,7 @@ inline void copy_value(std::byte* to, const std::byte* from, std::size_t size) {
 
 Archetype::Archetype(std::uint32_t index, std::vector<ComponentId> components, std::span<const ComponentInfo> infos,
                      std::uint32_t max_rows, FrontMemory& fronts)
-    : index_(index), components_(std::move(components)), max_rows_(max_rows) {
+    : index_(index), components_(std::move(components)), max_rows_(max_rows), allocator_(fronts.allocator) {
   columns_.push_back({.bases = {}, .size = sizeof(Entity), .id = kNoComponent, .stretch = {}, .ticks = {}});
   std::size_t row_bytes = sizeof(Entity);
   for (const ComponentId id : components_) {
@@ -121,11 +121,11 @@ void Archetype::reserve_columns() {
   for (Column& column : columns_) {
     const std::size_t bytes =
         round_up(kColours * kColumnAlignment + std::size_t{column.size} * max_rows_, ReservedMemory::page_size());
-    if (bytes >= ReservedMemory::kLargePage) end = round_up(end, ReservedMemory::kLargePage);
+    if (bytes >= ReservedMemory::kLargePage && allocator_ == nullptr) end = round_up(end, ReservedMemory::kLargePage);
     column.stretch = {.begin = end, .limit = end + bytes, .committed = end};
     end += bytes;
   }
-  reserved_ = ReservedMemory(end);
+  reserved_ = ReservedMemory(end, allocator_);
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     Column& column = columns_[i];
     column.bases[1] = reserved_.data() + column.stretch.begin + colour_offset(index_, i);

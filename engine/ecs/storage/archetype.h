@@ -18,8 +18,10 @@ namespace gloam {
 /// Memory of the fronts of all archetypes of a world. Entities lie apart from components: most loops read no entities,
 /// and without them the components of successive archetypes are closer together, so that prefetching reaches further.
 struct FrontMemory {
+  explicit FrontMemory(CpuAllocator* host = nullptr) : entities(host), components(host), allocator(host) {}
   PackedMemory entities;
   PackedMemory components;
+  CpuAllocator* allocator;  ///< of the rest, too; null: the system
 };
 
 /// All entities that have exactly the same set of components: one column of entities and one column per component. A
@@ -164,6 +166,7 @@ class Archetype {
   std::uint32_t front_room_ = 0;
   std::uint32_t reserved_capacity_ = 0;  ///< rows that fit into the committed part of `reserved_`
   std::uint32_t max_rows_ = 0;
+  CpuAllocator* allocator_ = nullptr;
   ReservedMemory reserved_;
 };
 

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstring>
 #include <new>
 
 // POSIX: mmap, mprotect and munmap. Their equivalents on Windows are VirtualAlloc with MEM_RESERVE, VirtualAlloc with
@@ -24,7 +25,7 @@ class OutOfMemory : public std::bad_alloc {
  public:
   [[nodiscard]] const char* what() const noexcept override {
     return "the system gives no more memory for components: its address space, its number of mappings "
-           "(vm.max_map_count) or its memory is used up";
+           "(vm.max_map_count) or its memory, or that of the host's allocator, is used up";
   }
 };
 
@@ -39,8 +40,14 @@ std::size_t ReservedMemory::page_size() {
   return size;
 }
 
-ReservedMemory::ReservedMemory(std::size_t bytes)
-    : bytes_(round_up(bytes, bytes >= kLargePage ? kLargePage : page_size())) {
+ReservedMemory::ReservedMemory(std::size_t bytes, CpuAllocator* allocator)
+    : bytes_(round_up(bytes, bytes >= kLargePage && allocator == nullptr ? kLargePage : page_size())),
+      allocator_(allocator) {
+  if (allocator != nullptr) {
+    data_ = static_cast<std::byte*>(allocator->allocate(bytes_, page_size()));
+    if (data_ == nullptr) throw OutOfMemory();
+    return;
+  }
   const std::size_t slack = bytes_ >= kLargePage ? kLargePage : 0;
   void* address = map_pages(bytes_ + slack, PROT_READ | PROT_WRITE);
   writable_ = address != MAP_FAILED;
@@ -62,20 +69,28 @@ ReservedMemory::ReservedMemory(std::size_t bytes)
 }
 
 ReservedMemory::~ReservedMemory() {
-  if (data_ != nullptr) munmap(data_, bytes_);
+  if (data_ == nullptr) return;
+  if (allocator_ != nullptr)
+    allocator_->free(data_, bytes_, page_size());
+  else
+    munmap(data_, bytes_);
 }
 
 void ReservedMemory::commit(std::size_t begin, std::size_t end) {
   GLOAM_ASSERT(begin <= end && end <= bytes_, "pages are committed within their reservation");
   GLOAM_ASSERT(begin % page_size() == 0 && end % page_size() == 0, "memory is committed by whole pages");
   if (begin == end || writable_) return;
+  if (allocator_ != nullptr) {
+    std::memset(data_ + begin, 0, end - begin);
+    return;
+  }
   if (mprotect(data_ + begin, end - begin, PROT_READ | PROT_WRITE) != 0) throw OutOfMemory();
 }
 
 void ReservedMemory::extend(Stretch& stretch, std::size_t end) {
   if (end <= stretch.committed) return;
   const std::size_t large = stretch.begin + kLargePage;
-  const bool by_large_pages = end - stretch.begin >= kLargePage / 2 && large <= stretch.limit;
+  const bool by_large_pages = allocator_ == nullptr && end - stretch.begin >= kLargePage / 2 && large <= stretch.limit;
   const std::size_t old_end = stretch.committed;
   const std::size_t new_end =
       std::min(stretch.begin + round_up(end - stretch.begin, by_large_pages ? kLargePage : page_size()), stretch.limit);
@@ -94,9 +109,10 @@ std::byte* PackedMemory::take(std::size_t bytes) {
   constexpr std::size_t kAlignment = 64;
   constexpr std::size_t kStep = std::size_t{64} << 10;
   constexpr std::size_t kBlock = std::size_t{64} << 20;
+  constexpr std::size_t kBlockOfHost = std::size_t{256} << 10;  // is not only address space
   bytes = round_up(bytes, kAlignment);
   if (blocks_.empty() || bytes > blocks_.back().memory.size() - used_) {
-    ReservedMemory memory(std::max(kBlock, bytes));
+    ReservedMemory memory(std::max(allocator_ == nullptr ? kBlock : kBlockOfHost, bytes), allocator_);
     const std::size_t size = memory.size();
     blocks_.push_back({std::move(memory), {.limit = size}});
     used_ = 0;

@@ -9,27 +9,30 @@
 #include <vector>
 
 #include "engine/core/assert.h"
+#include "engine/core/cpu_allocator.h"
 
 namespace gloam {
 
 /// A range of reserved address space. It has no memory until pages of it are committed and written to, and it never
-/// moves. Move-only.
+/// moves. With a host's allocator it is memory of that, as a whole and from the start. Move-only.
 /// The only file that calls the operating system's memory functions is virtual_memory.cpp.
 class ReservedMemory {
  public:
   ReservedMemory() = default;
   /// Reserves at least `bytes`, starting on a page boundary. Throws std::bad_alloc when the address space or the number
   /// of mappings is used up.
-  explicit ReservedMemory(std::size_t bytes);
+  explicit ReservedMemory(std::size_t bytes, CpuAllocator* allocator = nullptr);
   ~ReservedMemory();
   ReservedMemory(ReservedMemory&& other) noexcept
       : data_(std::exchange(other.data_, nullptr)),
         bytes_(std::exchange(other.bytes_, 0)),
-        writable_(other.writable_) {}
+        writable_(other.writable_),
+        allocator_(other.allocator_) {}
   ReservedMemory& operator=(ReservedMemory&& other) noexcept {
     std::swap(data_, other.data_);
     std::swap(bytes_, other.bytes_);
     std::swap(writable_, other.writable_);
+    std::swap(allocator_, other.allocator_);
     return *this;
   }
 
@@ -60,7 +63,8 @@ class ReservedMemory {
  private:
   std::byte* data_ = nullptr;
   std::size_t bytes_ = 0;
-  bool writable_ = false;  ///< all pages are, also those that are not committed
+  bool writable_ = false;              ///< all pages are, also those that are not committed
+  CpuAllocator* allocator_ = nullptr;  ///< that `data_` is from; null: the system
 };
 
 [[nodiscard]] constexpr std::size_t round_up(std::size_t value, std::size_t multiple) {
@@ -70,6 +74,8 @@ class ReservedMemory {
 /// Allocates small pieces of memory side by side. They never move and are all freed together, by the destructor.
 class PackedMemory {
  public:
+  /// allocator: null for memory of the system.
+  explicit PackedMemory(CpuAllocator* allocator = nullptr) : allocator_(allocator) {}
   /// Returns `bytes` zeroed bytes, aligned to 64.
   [[nodiscard]] std::byte* take(std::size_t bytes);
 
@@ -78,6 +84,7 @@ class PackedMemory {
     ReservedMemory memory;
     ReservedMemory::Stretch stretch;
   };
+  CpuAllocator* allocator_;
   std::vector<Block> blocks_;
   std::size_t used_ = 0;  ///< bytes used of the last block
 };
@@ -88,8 +95,8 @@ class VirtualArray {
   static_assert(std::is_trivially_copyable_v<T>);
 
  public:
-  explicit VirtualArray(std::size_t max_items)
-      : memory_(max_items * sizeof(T)), stretch_{.limit = memory_.size()}, max_items_(max_items) {}
+  explicit VirtualArray(std::size_t max_items, CpuAllocator* allocator = nullptr)
+      : memory_(max_items * sizeof(T), allocator), stretch_{.limit = memory_.size()}, max_items_(max_items) {}
 
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] T& operator[](std::size_t i) { return items()[i]; }

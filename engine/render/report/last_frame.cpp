@@ -85,6 +85,8 @@ FrameReport LastFrame::report(const ModuleSet& modules, FrameResources& resource
   report.counters = counters(modules.list(), resources.results);
   if (const auto found = report.counters.find("scene.kept"); found != report.counters.end() && kept)
     found->second = 1.0;
+  std::map<std::string, std::uint64_t> kept_bytes;
+  if (!views_.empty()) kept_bytes = resources.history.bytes_of_view(views_.back().view.value);
   report.views = views_;
   report.plans_compiled = resources.graph.plans_compiled();
   report.pipelines_pending = resources.pipelines.pending();
@@ -100,6 +102,8 @@ FrameReport LastFrame::report(const ModuleSet& modules, FrameResources& resource
     ModuleState state = state_of(modules.list()[i]->name(), device, memory);
     state.demanded = modules.demand(i).needed;
     state.reason = modules.demand(i).reason;
+    if (const auto bytes = kept_bytes.find(state.name); bytes != kept_bytes.end() && state.demanded)
+      report.counters[state.name + ".kept_bytes"] = static_cast<double>(bytes->second);
     report.modules.push_back(std::move(state));
   }
   return report;

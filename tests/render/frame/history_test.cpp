@@ -100,6 +100,17 @@ TEST_F(HistoryFrames, a_failed_submission_gives_the_frame_up) {
   EXPECT_EQ(control_.commits, 3u);
 }
 
+TEST_F(HistoryFrames, what_a_view_keeps_is_counted) {
+  draw(0);
+  const double one = renderer_->report().counters.at("temporal.kept_bytes");
+  EXPECT_GT(one, 0.0);
+  EXPECT_LE(one, static_cast<double>(bytes()));
+  draw(1);
+  EXPECT_EQ(renderer_->report().counters.at("temporal.kept_bytes"), one) << "of the last view only";
+  renderer_->release_view(ViewId{1});
+  EXPECT_EQ(renderer_->report().counters.count("temporal.kept_bytes"), 0u);
+}
+
 TEST_F(HistoryFrames, a_declaration_that_fails_gives_the_frame_up) {
   draw();
   control_.fail = true;

@@ -131,6 +131,38 @@ TEST_F(ManyViews, that_take_turns_follow_casters_that_move) {
   expect_equal(own, draw_many("1", 5, 3, true));  // some views have their own
 }
 
+TEST_F(ManyViews, free_idle_memory_shrinks_an_atlas_that_past_frames_have_filled) {
+  gpu::Device& device = *test::drawing_device();
+  const auto draw = [](Host& host, std::uint32_t width) {
+    ViewRequest request = Host::view(0);
+    request.settings.width = width;
+    request.settings.height = width / 2;
+    host.draw({request});
+  };
+  std::uint64_t small = 0;
+  Picture expected;
+  {
+    Host host(device, make_all_modules());
+    draw(host, 32);
+    draw(host, 32);
+    small = bytes_of(device, "shadows");
+    expected = test::value_of(host.renderer->read_picture(ViewId{0}));
+  }
+  Host host(device, make_all_modules());
+  draw(host, 512);
+  draw(host, 32);
+  EXPECT_GT(bytes_of(device, "shadows"), 2 * small) << "the atlas is kept, in case the large picture returns";
+  host.renderer->free_idle_memory();
+  draw(host, 32);
+  draw(host, 32);
+  EXPECT_EQ(bytes_of(device, "shadows"), small);
+  EXPECT_EQ(test::value_of(host.renderer->read_picture(ViewId{0})).rgba, expected.rgba);
+  const FrameReport report = host.renderer->report();
+  EXPECT_EQ(report.gpu_memory.used, device.memory_totals().used);
+  EXPECT_GE(report.gpu_memory.reserved, report.gpu_memory.used);
+  EXPECT_GT(report.counters.at("shadows.kept_bytes"), 0.0);
+}
+
 /// The modules that light and shadows need: each lifetime compiles its pipelines again.
 ModuleList few_modules() {
   ModuleList modules = make_all_modules();
