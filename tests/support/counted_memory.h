@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <vulkan/vulkan_core.h>
-
 #include <atomic>
 #include <cstdint>
 #include <set>

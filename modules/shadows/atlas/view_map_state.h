@@ -27,8 +27,9 @@ struct ShadowCounts {
 struct ViewMapState {
   // After the last committed frame; changed only when a frame is committed:
   ShadowCache cache;
-  CasterHistory history;         ///< its frames are the frames of this view
-  bool has_backgrounds = false;  ///< the image of backgrounds exists
+  std::uint64_t cached_images = 0;  ///< the images that `cache` describes: turn_instance(), or 0 for the view's own
+  CasterHistory history;            ///< its frames are the frames of this view
+  bool has_backgrounds = false;     ///< the image of backgrounds exists
   /// The view takes turns with others in one set of images (ShadowStates::choose_images).
   bool takes_turns = false;
   std::uint64_t image_bytes = 0;  ///< of the images that the view would have alone

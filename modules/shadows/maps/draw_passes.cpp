@@ -93,14 +93,17 @@ struct UsedImages {
   bool filled = false;  ///< the cache describes their contents
 };
 
-UsedImages use_images(FrameBuilder& frame, ShadowStates& states, const ViewMapState& kept, const ViewFaces& view_faces,
+UsedImages use_images(FrameBuilder& frame, ShadowStates& states, ViewMapState& kept, const ViewFaces& view_faces,
                       const ShadowKnobs& knobs) {
   const std::uint64_t world = world_id(frame.world());
-  bool holds = true;
-  if (kept.takes_turns) {
-    holds = states.take_turn(world, kept, knobs, frame.graph().frame());
-    frame.on_commit([&states, &kept, world, knobs] { states.commit_turn(world, kept, knobs); });
-  }
+  const std::uint64_t images = kept.takes_turns ? turn_instance(knobs) : 0;
+  // What the view has left in other images says nothing about these.
+  bool holds = kept.cached_images == images;
+  if (kept.takes_turns) holds = states.take_turn(world, kept, knobs, frame.graph().frame()) && holds;
+  frame.on_commit([&states, &kept, world, knobs, images] {
+    if (kept.takes_turns) states.commit_turn(world, kept, knobs);
+    kept.cached_images = images;
+  });
   const HistoryImage atlas = use_map_image(frame, view_faces, knobs, kept.takes_turns, MapImage::atlas);
   const HistoryImage pyramid = use_map_image(frame, view_faces, knobs, kept.takes_turns, MapImage::pyramid);
   UsedImages used{{atlas.image, pyramid.image, {}}, {}, holds && atlas.filled() && pyramid.filled()};

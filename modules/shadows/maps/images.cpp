@@ -10,8 +10,6 @@
 namespace gloam {
 namespace {
 
-constexpr std::uint64_t kTurns = std::uint64_t{1} << 32;
-
 gpu::ImageDesc map_image(const char* name, gpu::Format format, std::uint32_t side) {
   gpu::ImageDesc desc;
   desc.name = name;
@@ -55,6 +53,11 @@ std::uint64_t map_image_bytes(const ShadowKnobs& knobs, bool backgrounds) {
   return bytes;
 }
 
+std::uint64_t turn_instance(const ShadowKnobs& knobs) {
+  // Above all owners of atlases, which are numbers of views.
+  return std::uint64_t{1} << 32 | std::uint64_t{knobs.atlas_size} << 1 | (knobs.d16 ? 1 : 0);
+}
+
 HistoryImage use_map_image(FrameBuilder& frame, const ViewFaces& view_faces, const ShadowKnobs& knobs, bool takes_turns,
                            MapImage image) {
   HistoryUse use;
@@ -65,8 +68,7 @@ HistoryImage use_map_image(FrameBuilder& frame, const ViewFaces& view_faces, con
   }
   if (takes_turns) {
     use.scope = HistoryScope::shared;
-    // Above all owners of atlases, which are numbers of views.
-    use.instance = kTurns | std::uint64_t{knobs.atlas_size} << 1 | (knobs.d16 ? 1 : 0);
+    use.instance = turn_instance(knobs);
   }
   const auto used = frame.history_image(desc_of(image, knobs), use);
   return frame.check(used) ? *used : HistoryImage{};

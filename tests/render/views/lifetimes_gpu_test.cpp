@@ -145,22 +145,51 @@ TEST_F(ManyViews, free_idle_memory_shrinks_an_atlas_that_past_frames_have_filled
     Host host(device, make_all_modules());
     draw(host, 32);
     draw(host, 32);
+    ASSERT_TRUE(host.renderer->wait().ok());
     small = bytes_of(device, "shadows");
     expected = test::value_of(host.renderer->read_picture(ViewId{0}));
   }
   Host host(device, make_all_modules());
   draw(host, 512);
   draw(host, 32);
+  ASSERT_TRUE(host.renderer->wait().ok());
   EXPECT_GT(bytes_of(device, "shadows"), 2 * small) << "the atlas is kept, in case the large picture returns";
   host.renderer->free_idle_memory();
   draw(host, 32);
   draw(host, 32);
+  ASSERT_TRUE(host.renderer->wait().ok());  // the frames before may still use the large atlas
   EXPECT_EQ(bytes_of(device, "shadows"), small);
   EXPECT_EQ(test::value_of(host.renderer->read_picture(ViewId{0})).rgba, expected.rgba);
   const FrameReport report = host.renderer->report();
   EXPECT_EQ(report.gpu_memory.used, device.memory_totals().used);
   EXPECT_GE(report.gpu_memory.reserved, report.gpu_memory.used);
   EXPECT_GT(report.counters.at("shadows.kept_bytes"), 0.0);
+}
+
+// Each view's maps go from its own images to those that it shares, and back, while all of them still exist.
+TEST_F(ManyViews, that_get_their_own_atlas_again_do_not_show_what_it_held_before) {
+  gpu::Device& device = *test::drawing_device();
+  Host changes(device, make_all_modules()), stays(device, make_all_modules());
+  const char* const kept_atlases[] = {"65536", "0", "65536", "0", "0", "65536"};
+  std::uint32_t width = 32;
+  for (const char* kept : kept_atlases) {
+    ASSERT_TRUE(changes.renderer->knobs().set("shadows.kept_atlases", kept).ok());
+    width = 288 - width;  // another size of the atlas
+    for (std::uint32_t size : {width, 288 - width}) {
+      std::vector<ViewRequest> requests = {Host::view(0), Host::view(3)};
+      for (ViewRequest& request : requests) {
+        request.settings.width = size;
+        request.settings.height = size / 2;
+      }
+      for (Host* host : {&changes, &stays}) {
+        host->move_a_caster();
+        host->draw(requests);
+      }
+      for (const ViewRequest& request : requests)
+        EXPECT_EQ(test::value_of(changes.renderer->read_picture(request.settings.id)).rgba,
+                  test::value_of(stays.renderer->read_picture(request.settings.id)).rgba);
+    }
+  }
 }
 
 /// The modules that light and shadows need: each lifetime compiles its pipelines again.
@@ -170,6 +199,26 @@ ModuleList few_modules() {
     return module->name() != "lights" && module->name() != "shadows" && module->name() != "lighting";
   });
   return modules;
+}
+
+TEST_F(ManyViews, a_frame_beyond_the_budget_is_given_up_and_smaller_ones_go_on) {
+  gpu::vulkan::Features features;
+  gpu::HostDevice host_device = test::lend(*test::drawing_device(), features);
+  host_device.memory.budget_bytes = std::uint64_t{64} << 20;
+  const auto device = test::value_of(gpu::create_vulkan_device_on(host_device));
+  Host host(*device, few_modules());
+  ViewRequest request = Host::view(0);
+  host.draw({request});
+  const Picture before = test::value_of(host.renderer->read_picture(ViewId{0}));
+  ViewRequest large = request;
+  large.settings.width = 4096;
+  large.settings.height = 2304;
+  const Status refused = host.renderer->render(host.world, std::span(&large, 1));
+  ASSERT_FALSE(refused.ok());
+  EXPECT_THAT(refused.error().message, ::testing::HasSubstr("MemoryOptions::budget_bytes is 67108864"));
+  EXPECT_LE(device->memory_totals().reserved, host_device.memory.budget_bytes);
+  host.draw({request});
+  EXPECT_EQ(test::value_of(host.renderer->read_picture(ViewId{0})).rgba, before.rgba);
 }
 
 class Lifetimes : public ManyViews {};
