@@ -190,6 +190,7 @@ class ShadowsModule final : public Module {
 
   void release_view(ViewId view) override {
     states_.release_view(view);
+    states_.free_idle_memory();  // what all views share may be larger than the others need
     reuse_.release_view(view);
   }
   void free_idle_memory() override {

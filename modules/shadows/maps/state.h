@@ -55,7 +55,7 @@ class ShadowStates {
                                std::uint32_t frame);
   /// The frame in which the view has taken the images was committed.
   void commit_turn(std::uint64_t world, const ViewMapState& view, const ShadowKnobs& knobs);
-  /// Frees scratch images and staging memory. The GPU is idle.
+  /// Frees scratch images and staging memory; the next frame takes what it needs.
   void free_idle_memory();
   /// Resets the state's counters and its list of drawn faces. For frames of the view that draw no maps.
   void skip_frame(std::uint64_t world, const ViewFaces& faces);

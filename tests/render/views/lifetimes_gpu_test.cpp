@@ -158,7 +158,7 @@ TEST_F(ManyViews, free_idle_memory_shrinks_an_atlas_that_past_frames_have_filled
   draw(host, 32);
   draw(host, 32);
   ASSERT_TRUE(host.renderer->wait().ok());  // the frames before may still use the large atlas
-  EXPECT_EQ(bytes_of(device, "shadows"), small);
+  EXPECT_LE(bytes_of(device, "shadows"), small * 5 / 4) << "lists keep a quarter more than they have needed";
   EXPECT_EQ(test::value_of(host.renderer->read_picture(ViewId{0})).rgba, expected.rgba);
   const FrameReport report = host.renderer->report();
   EXPECT_EQ(report.gpu_memory.used, device.memory_totals().used);
