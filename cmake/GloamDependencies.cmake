@@ -2,6 +2,24 @@
 # SPDX-License-Identifier: MIT
 # Finds every package that this project uses. All are packages of the distribution.
 find_package(Threads REQUIRED)
+if(GLOAM_CPU_ONLY)
+  # Headers alone, and oneTBB if it is there for this system.
+  find_path(GLOAM_GLM_HEADERS glm/glm.hpp REQUIRED)
+  find_path(GLOAM_XXHASH_HEADERS xxhash.h REQUIRED)
+  find_package(TBB QUIET)
+  if(NOT TARGET glm::glm)
+    add_library(glm::glm INTERFACE IMPORTED GLOBAL)
+    target_include_directories(glm::glm INTERFACE ${GLOAM_GLM_HEADERS})
+  endif()
+  if(GLOAM_TESTS)
+    find_package(GTest QUIET)
+    if(NOT TARGET GTest::gmock)  # Debian has the sources
+      set(BUILD_SHARED_LIBS OFF)
+      add_subdirectory(/usr/src/googletest ${CMAKE_BINARY_DIR}/googletest EXCLUDE_FROM_ALL)
+    endif()
+  endif()
+  return()
+endif()
 find_package(glm REQUIRED)
 find_package(TBB REQUIRED)
 find_package(Vulkan REQUIRED)

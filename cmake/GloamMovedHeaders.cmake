@@ -9,6 +9,8 @@ set(moved
     engine/core/text/nearest_name.h
   engine/core/plain_text.h
     engine/core/text/plain_text.h
+  engine/core/processor_time.h
+    engine/core/system/process.h
   engine/core/sealed_file.h
     engine/core/storage/sealed_file.h
   engine/ecs/archetype.h

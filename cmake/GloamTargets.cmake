@@ -276,6 +276,9 @@ endfunction()
 
 # gloam_add_properties(<suite> …): as gloam_add_test, with RapidCheck linked.
 function(gloam_add_properties suite)
+  if(NOT TARGET rapidcheck)  # builds with GLOAM_CPU_ONLY, where the system may have none
+    return()
+  endif()
   gloam_add_test(${suite} ${ARGN})
   target_link_libraries(${suite} PRIVATE rapidcheck)
 endfunction()

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/core/processor_time.h"
+#include "engine/core/system/process.h"
 #include "engine/core/text/formatted.h"
 #include "engine/render/draws/culling.h"
 #include "engine/render/draws/levels.h"

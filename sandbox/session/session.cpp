@@ -6,7 +6,7 @@
 #include <iterator>
 #include <utility>
 
-#include "engine/core/processor_time.h"
+#include "engine/core/system/process.h"
 #include "engine/gpu/vulkan_device.h"
 #include "engine/scene/resources.h"
 #include "engine/scene/systems.h"

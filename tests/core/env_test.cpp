@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/environment.h"
 #include "tests/support/scale.h"
 
 namespace gloam {
@@ -13,14 +14,9 @@ namespace {
 class Variable {
  public:
   Variable(const char* name, const char* value) : name_(name), before_(environment_text(name)) {
-    ::setenv(name, value, 1);
+    test::set_environment(name, value);
   }
-  ~Variable() {
-    if (before_)
-      ::setenv(name_, before_->c_str(), 1);
-    else
-      ::unsetenv(name_);
-  }
+  ~Variable() { test::set_environment(name_, before_ ? before_->c_str() : nullptr); }
   Variable(const Variable&) = delete;
   Variable& operator=(const Variable&) = delete;
 

@@ -2,11 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/core/storage/sealed_file.h"
 
-#if defined(__unix__) || defined(__APPLE__)
-#include <signal.h>
-#include <unistd.h>
-#endif
-
 #include <cerrno>
 #include <chrono>
 #include <cstdint>
@@ -20,6 +15,7 @@
 
 #include "engine/core/assert.h"
 #include "engine/core/hash.h"
+#include "engine/core/system/process.h"
 
 namespace gloam {
 namespace {
@@ -34,24 +30,19 @@ std::string checksum_of(std::string_view identity, std::string_view payload) {
 }
 
 /// Names of new files: .gloam-TARGET-HOST-PROCESS-UNIQUE.partial, hexadecimal; the first two are hashes. Empty where
-/// processes have no numbers.
-std::string partial_prefix([[maybe_unused]] const std::filesystem::path& target) {
-#if defined(__unix__) || defined(__APPLE__)
-  char host[256] = {};
-  if (gethostname(host, sizeof(host) - 1) != 0) return {};
+/// the host has no name.
+std::string partial_prefix(const std::filesystem::path& target) {
+  const std::string host = host_name();
+  if (host.empty()) return {};
   char prefix[48];
   std::snprintf(prefix, sizeof(prefix), ".gloam-%08llx-%08llx-",
                 static_cast<unsigned long long>(Hasher().text(target.filename().string()).digest() >> 32),
                 static_cast<unsigned long long>(Hasher().text(host).digest() >> 32));
   return prefix;
-#else
-  return {};
-#endif
 }
 
 /// Removes new files of the target whose writers were killed: of processes of this host that no longer exist.
-void remove_left_files([[maybe_unused]] const std::filesystem::path& target) {
-#if defined(__unix__) || defined(__APPLE__)
+void remove_left_files(const std::filesystem::path& target) {
   const std::string prefix = partial_prefix(target);
   std::error_code fault;
   const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
@@ -64,18 +55,9 @@ void remove_left_files([[maybe_unused]] const std::filesystem::path& target) {
         std::sscanf(name.c_str() + prefix.size(), "%x-", &process) != 1 || process == 0)
       continue;
     std::error_code ignored;
-    if (kill(static_cast<pid_t>(process), 0) != 0 && errno == ESRCH) std::filesystem::remove(files->path(), ignored);
+    if (!process_exists(process)) std::filesystem::remove(files->path(), ignored);
     if (fault) return;
   }
-#endif
-}
-
-unsigned process_number() {
-#if defined(__unix__) || defined(__APPLE__)
-  return static_cast<unsigned>(getpid());
-#else
-  return 0;
-#endif
 }
 
 /// A file of a name that no other one has, in the folder of the file that it will replace. Unless it is renamed, it is
@@ -113,11 +95,9 @@ class NewFile {
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
   /// Writes all bytes and closes the file. `replaces`: they must be on the disk before they take an old file's place.
-  [[nodiscard]] bool write(std::string_view bytes, [[maybe_unused]] bool replaces) {
-    bool written = std::fwrite(bytes.data(), 1, bytes.size(), file_) == bytes.size() && std::fflush(file_) == 0;
-#if defined(__unix__) || defined(__APPLE__)
-    written = written && (!replaces || fsync(fileno(file_)) == 0);
-#endif
+  [[nodiscard]] bool write(std::string_view bytes, bool replaces) {
+    const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file_) == bytes.size() && std::fflush(file_) == 0 &&
+                         (!replaces || flush_to_disk(file_));
     const bool closed = std::fclose(std::exchange(file_, nullptr)) == 0;
     return written && closed;
   }

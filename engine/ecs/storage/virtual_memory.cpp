@@ -2,20 +2,11 @@
 // SPDX-License-Identifier: MIT
 #include "engine/ecs/storage/virtual_memory.h"
 
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstring>
 #include <new>
 
-// POSIX: mmap, mprotect and munmap. Their equivalents on Windows are VirtualAlloc with MEM_RESERVE, VirtualAlloc with
-// MEM_COMMIT, and VirtualFree.
-//
-// A process has a limited number of mappings (vm.max_map_count on Linux, 65,530 by default), and pages of different
-// protection are different mappings. So a reservation is writable as a whole: it takes memory only where it is written
-// to, and neighbouring reservations are one mapping. Where the system counts writable pages that were never written to
-// against a limit (vm.overcommit_memory=2, RLIMIT_DATA), pages become writable when they are committed.
+#include "engine/ecs/storage/system_pages.h"
 
 namespace gloam {
 namespace {
@@ -29,16 +20,9 @@ class OutOfMemory : public std::bad_alloc {
   }
 };
 
-void* map_pages(std::size_t bytes, int protection) {
-  return mmap(nullptr, bytes, protection, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-}
-
 }  // namespace
 
-std::size_t ReservedMemory::page_size() {
-  static const auto size = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
-  return size;
-}
+std::size_t ReservedMemory::page_size() { return system_page_size(); }
 
 ReservedMemory::ReservedMemory(std::size_t bytes, CpuAllocator* allocator)
     : bytes_(round_up(bytes, bytes >= kLargePage && allocator == nullptr ? kLargePage : page_size())),
@@ -48,24 +32,10 @@ ReservedMemory::ReservedMemory(std::size_t bytes, CpuAllocator* allocator)
     if (data_ == nullptr) throw OutOfMemory();
     return;
   }
-  const std::size_t slack = bytes_ >= kLargePage ? kLargePage : 0;
-  void* address = map_pages(bytes_ + slack, PROT_READ | PROT_WRITE);
-  writable_ = address != MAP_FAILED;
-  if (!writable_) address = map_pages(bytes_ + slack, PROT_NONE);
-  if (address == MAP_FAILED) throw OutOfMemory();
-  data_ = static_cast<std::byte*>(address);
-  if (slack > 0) {
-    // As far back as it can be: Linux maps downwards, so the reservation then touches the one before, as one mapping.
-    const std::size_t after = (reinterpret_cast<std::uintptr_t>(address) + bytes_ + slack) % kLargePage;
-    const std::size_t before = slack - after;
-    if (before > 0) munmap(data_, before);
-    data_ += before;
-    if (after > 0) munmap(data_ + bytes_, after);
-  }
-#ifdef MADV_NOHUGEPAGE
-  // Otherwise the first byte of a column may take a large page. extend() asks for them where they are used.
-  madvise(data_, bytes_, MADV_NOHUGEPAGE);
-#endif
+  const ReservedPages pages = reserve_pages(bytes_, bytes_ >= kLargePage ? kLargePage : page_size());
+  if (pages.address == nullptr) throw OutOfMemory();
+  data_ = pages.address;
+  writable_ = pages.writable;
 }
 
 ReservedMemory::~ReservedMemory() {
@@ -73,7 +43,7 @@ ReservedMemory::~ReservedMemory() {
   if (allocator_ != nullptr)
     allocator_->free(data_, bytes_, page_size());
   else
-    munmap(data_, bytes_);
+    release_pages(data_, bytes_);
 }
 
 void ReservedMemory::commit(std::size_t begin, std::size_t end) {
@@ -84,7 +54,7 @@ void ReservedMemory::commit(std::size_t begin, std::size_t end) {
     std::memset(data_ + begin, 0, end - begin);
     return;
   }
-  if (mprotect(data_ + begin, end - begin, PROT_READ | PROT_WRITE) != 0) throw OutOfMemory();
+  if (!commit_pages(data_ + begin, end - begin)) throw OutOfMemory();
 }
 
 void ReservedMemory::extend(Stretch& stretch, std::size_t end) {
@@ -96,13 +66,9 @@ void ReservedMemory::extend(Stretch& stretch, std::size_t end) {
       std::min(stretch.begin + round_up(end - stretch.begin, by_large_pages ? kLargePage : page_size()), stretch.limit);
   commit(old_end, new_end);
   stretch.committed = new_end;
-#ifdef MADV_HUGEPAGE
-  if (by_large_pages) madvise(data_ + stretch.begin, new_end - stretch.begin, MADV_HUGEPAGE);
-#endif
-#ifdef MADV_COLLAPSE
+  if (by_large_pages) prefer_large_pages(data_ + stretch.begin, new_end - stretch.begin);
   // Bytes after the first large page get large pages on their first touch. The first one was touched page by page.
-  if (old_end < large && large <= new_end) madvise(data_ + stretch.begin, kLargePage, MADV_COLLAPSE);
-#endif
+  if (allocator_ == nullptr && old_end < large && large <= new_end) join_small_pages(data_ + stretch.begin, kLargePage);
 }
 
 std::byte* PackedMemory::take(std::size_t bytes) {

@@ -15,7 +15,7 @@ namespace gloam {
 
 /// A range of reserved address space. It has no memory until pages of it are committed and written to, and it never
 /// moves. With a host's allocator it is memory of that, as a whole and from the start. Move-only.
-/// The only file that calls the operating system's memory functions is virtual_memory.cpp.
+/// The operating system's memory functions are behind system_pages.h.
 class ReservedMemory {
  public:
   ReservedMemory() = default;

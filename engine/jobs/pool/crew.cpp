@@ -2,14 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/jobs/pool/crew.h"
 
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/info.h>
-#include <oneapi/tbb/task_arena.h>
-#include <oneapi/tbb/task_group.h>
-
 #include <algorithm>
-#include <optional>
-#include <set>
 #include <thread>
 
 namespace gloam {
@@ -27,45 +20,6 @@ void pause_core() {
   std::this_thread::yield();
 #endif
 }
-
-/// Raises oneTBB's thread limit for a crew that has more threads than cores. By default oneTBB has one worker fewer
-/// than cores. Limits are process-wide and oneTBB applies the smallest, so the process keeps only one limit: the
-/// largest that any of these crews asks for.
-class ThreadLimit {
- public:
-  explicit ThreadLimit(std::uint32_t threads) : threads_(threads) {
-    if (threads_ <= Crew::core_count()) return;
-    Shared& all = shared();
-    const std::lock_guard lock(all.mutex);
-    all.wishes.insert(threads_);
-    all.grant_largest();
-  }
-  ~ThreadLimit() {
-    if (threads_ <= Crew::core_count()) return;
-    Shared& all = shared();
-    const std::lock_guard lock(all.mutex);
-    all.wishes.erase(all.wishes.find(threads_));
-    all.grant_largest();
-  }
-  ThreadLimit(const ThreadLimit&) = delete;
-  ThreadLimit& operator=(const ThreadLimit&) = delete;
-
- private:
-  struct Shared {
-    void grant_largest() {
-      control.reset();
-      if (!wishes.empty()) control.emplace(tbb::global_control::max_allowed_parallelism, *wishes.rbegin());
-    }
-    std::mutex mutex;
-    std::multiset<std::uint32_t> wishes;
-    std::optional<tbb::global_control> control;
-  };
-  static Shared& shared() {
-    static Shared& shared = *new Shared;  // never destroyed: executors in static variables end after main
-    return shared;
-  }
-  const std::uint32_t threads_;
-};
 
 }  // namespace
 
@@ -136,34 +90,21 @@ void CrewState::visit() {
 
 namespace {
 
-void run_visit(CrewState* state) {
+/// One visit of a helper.
+void run_visit(void* of) {
+  auto* state = static_cast<CrewState*>(of);
   (void)state->holders.load(std::memory_order_acquire);  // pairs with the increment in call_helpers
   state->visit();
   state->release();
 }
 
-/// One visit of a helper, run by a oneTBB worker. oneTBB is not instrumented, so ThreadSanitizer does not see the
-/// hand-over of this object to the worker. Only the read of the pointer is excluded from the checks; everything in
-/// run_visit is checked.
-struct Visit {
-  CrewState* state;
-  __attribute__((no_sanitize("thread"))) void operator()() const { run_visit(state); }
-};
-
 }  // namespace
 
-/// oneTBB's workers. It ends the process where one of its workers cannot start another one.
-struct Crew::Workers {
-  explicit Workers(std::uint32_t threads) : limit(threads), arena(static_cast<int>(threads), 1) {}
-  ThreadLimit limit;
-  tbb::task_arena arena;
-  tbb::task_group visits;  ///< every enqueued visit, so that the destructor can wait for visits that have not begun
-};
-
-std::uint32_t Crew::core_count() { return static_cast<std::uint32_t>(tbb::info::default_concurrency()); }
+std::uint32_t Crew::core_count() { return SharedWorkers::core_count(); }
 
 std::unique_ptr<OwnThreads> Crew::scarce_threads(std::uint32_t helpers) {
   if (helpers == 0) return nullptr;
+  if (!SharedWorkers::exist()) return std::make_unique<OwnThreads>(helpers);
   // oneTBB may start more threads than it needs: where a thread is to work and has not gone to sleep yet, it starts
   // one.
   const std::uint32_t plenty = 2 * helpers + 8;
@@ -177,14 +118,13 @@ Crew::Crew(std::uint32_t threads)
     : own_threads_(scarce_threads(threads - 1)),
       threads_(own_threads_ == nullptr ? threads : own_threads_->count() + 1),
       state_(new CrewState(threads_)),
-      workers_(threads_ > 1 && own_threads_ == nullptr ? std::make_unique<Workers>(threads_) : nullptr) {}
+      workers_(threads_ > 1 && own_threads_ == nullptr ? SharedWorkers::create(threads_) : nullptr) {}
 
 Crew::~Crew() {
   state_->closing.store(true, std::memory_order_relaxed);
   state_->announce();
   // Runs the visits that are still enqueued; they leave at once. A visit that never runs would keep the state alive
   // forever.
-  if (workers_ != nullptr) workers_->arena.execute([this] { workers_->visits.wait(); });
   workers_.reset();
   own_threads_.reset();
   state_->release();
@@ -201,9 +141,9 @@ void Crew::call_helpers(std::uint32_t wanted) {
     ++holders;
     state_->idle.fetch_add(1, std::memory_order_relaxed);
     if (own_threads_ != nullptr)
-      own_threads_->enqueue(Visit{state_});
+      own_threads_->enqueue([state = state_] { run_visit(state); });
     else
-      workers_->arena.enqueue(workers_->visits.defer(Visit{state_}));
+      workers_->enqueue(run_visit, state_);
   }
 }
 

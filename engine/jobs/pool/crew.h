@@ -10,6 +10,7 @@
 #include <mutex>
 
 #include "engine/jobs/pool/own_threads.h"
+#include "engine/jobs/pool/shared_workers.h"
 
 namespace gloam {
 
@@ -81,8 +82,8 @@ struct CrewState {
   std::atomic<bool> closing = false;
 };
 
-/// Calls oneTBB's workers as helpers, or threads of its own where threads are scarce, and keeps the list of open
-/// regions.
+/// Calls the shared workers as helpers, or threads of its own where there are none or threads are scarce, and keeps
+/// the list of open regions.
 class Crew {
  public:
   /// threads ≥ 1, including the caller's. The crew has fewer if the system does not give the process as many.
@@ -110,16 +111,15 @@ class Crew {
   void wait(const Region& region, const std::function<bool()>& done);
 
  private:
-  struct Workers;
-  /// Threads of the crew itself, at most `helpers` and half of those that the system gives the process, if oneTBB might
-  /// start more than it gives; otherwise null.
+  /// Threads of the crew itself: all `helpers` where there are no shared workers; at most `helpers` and half of those
+  /// that the system gives the process, if oneTBB might start more than it gives; otherwise null.
   [[nodiscard]] static std::unique_ptr<OwnThreads> scarce_threads(std::uint32_t helpers);
   void call_helpers(std::uint32_t wanted);
 
   std::unique_ptr<OwnThreads> own_threads_;  ///< in place of workers_
   const std::uint32_t threads_;
   CrewState* state_;
-  std::unique_ptr<Workers> workers_;
+  std::unique_ptr<SharedWorkers> workers_;
 };
 
 /// Marks the calling thread as being inside `region`, so that regions constructed meanwhile are deeper.

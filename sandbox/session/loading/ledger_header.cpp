@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "engine/core/processor_time.h"
+#include "engine/core/system/process.h"
 #include "engine/core/text/formatted.h"
 #include "modules/accuracy/module.h"
 #include "sandbox/output/identity.h"

@@ -1,12 +1,15 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "engine/core/processor_time.h"
-
 #include <sched.h>
+#include <signal.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <ctime>
 #include <thread>
+
+#include "engine/core/system/process.h"
 
 namespace gloam {
 
@@ -22,5 +25,16 @@ std::uint32_t usable_cores() {
     return std::max(static_cast<std::uint32_t>(CPU_COUNT(&cores)), 1u);
   return std::max(std::thread::hardware_concurrency(), 1u);  // more cores than a cpu_set_t holds
 }
+
+std::uint32_t process_number() { return static_cast<std::uint32_t>(getpid()); }
+
+bool process_exists(std::uint32_t number) { return kill(static_cast<pid_t>(number), 0) == 0 || errno != ESRCH; }
+
+std::string host_name() {
+  char host[256] = {};
+  return gethostname(host, sizeof(host) - 1) == 0 ? host : std::string();
+}
+
+bool flush_to_disk(std::FILE* file) { return fsync(fileno(file)) == 0; }
 
 }  // namespace gloam
