@@ -54,7 +54,7 @@ ROOMS = {
     "shaders/lights": (("lists", "debug"), None),
     "shaders/lighting": (("opaque", "blended", "antialiasing", "display", "kernel_check"), None),
     "shaders/depth_of_field": (("tiles", "sprites", "blur", "compose", "debug"), None),
-    "engine/core": (("storage", "system", "text"), None),
+    "engine/core": (("system", "storage", "text"), None),
     "engine/jobs": (("pool", "conformance"), ("executor", "first_failure", "job_graph", "executor_conformance")),
     "engine/ecs": (("storage",), ("component", "entity")),
     "engine/gpu": (("spirv", "vulkan", "recording"), None),
