@@ -65,7 +65,7 @@ struct Visit {
 class OneTbbWorkers final : public SharedWorkers {
  public:
   explicit OneTbbWorkers(std::uint32_t threads) : limit_(threads), arena_(static_cast<int>(threads), 1) {}
-  ~OneTbbWorkers() override {
+  ~OneTbbWorkers() noexcept override {
     arena_.execute([this] { visits_.wait(); });
   }
   void enqueue(void (*visit)(void* state), void* state) override { arena_.enqueue(visits_.defer(Visit{visit, state})); }
