@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "sandbox/output/identity.h"
 
-#include <unistd.h>
-
 #include <array>
 #include <cstdio>
 
@@ -57,11 +55,6 @@ std::string scene_hash(const std::string& scene, const World& world) {
 std::string program_hash() {
   const auto program = read_text_file("/proc/self/exe", ErrorKind::failed);
   return program ? hexadecimal(Hasher().text(*program).digest()) : std::string();
-}
-
-std::string host_name() {
-  std::array<char, 256> name{};
-  return gethostname(name.data(), name.size() - 1) == 0 ? std::string(name.data()) : std::string();
 }
 
 }  // namespace gloam

@@ -16,7 +16,4 @@ namespace gloam {
 /// /proc/self/exe cannot be read.
 [[nodiscard]] std::string program_hash();
 
-/// The machine's name, to tell measurements of different machines apart. Empty if it has none.
-[[nodiscard]] std::string host_name();
-
 }  // namespace gloam

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <utility>
 
+#include "engine/core/system/process.h"
 #include "sandbox/output/identity.h"
 #include "sandbox/session/session.h"
 

@@ -9,6 +9,7 @@
 #include <memory>
 #include <utility>
 
+#include "engine/core/system/process.h"
 #include "engine/scene/systems.h"
 #include "modules/accuracy/module.h"
 #include "sandbox/bench/harness/camera_path.h"
