@@ -138,8 +138,6 @@ LocalFaces fetch_local_faces(uint light, vec3 light_position) {
                     texelFetch(shadow_rows, ivec2(2, light), 0), first.x == float(GLOAM_SHADOW_CUBE));
 }
 
-#include "shaders/shadows/final_lists/clear_faces.glsl"
-
 // Sets the tile's bounds in a face of a local light. In the six faces of a cube, a plane, a distance and a cone differ
 // a little; margins: the bounds hold for pixels whose own face is another one, too. Returns false when the face cannot
 // hold the bounds: pixels are beside it, too near to the light, or it does not exist.
@@ -232,14 +230,13 @@ float nearest_of_front_half(LocalFaces l, int own, int face) {
 // Faces of a cube, as bits, that decide about the tile: they hold pixels, or blockers for pixels. f: the tile in face
 // `own`. A surface of a neighbouring face at the tangent t ≥ 1 has t times its depth in face `own`, and blocks only if
 // that is in the cone of a pixel. Both are linear in t, and no kernel reaches beyond t = 2. The opposite face is out of
-// reach. width: of the search regions, as far as face `own` decides it. with_pixels: set to those that may hold pixels.
-uint deciding_faces(TileInFace f, LocalFaces l, int own, float width, out uint with_pixels) {
+// reach. width: of the search regions, as far as face `own` decides it.
+uint deciding_faces(TileInFace f, LocalFaces l, int own, float width) {
   float coarse;
   kernels_reach(width, coarse);
   float slack = max(2.0 + coarse, 4.0);
   float to_tangent = 2.0 * l.right.w / f.size, a_texel = 2.0 / max(f.scale * (f.surrounded ? 1.0 : 1.5), 1e-6);
   uint faces = 1u << own;
-  with_pixels = faces;
   for (int i = 0; i < 6; ++i) {
     if (i >> 1 == own >> 1) continue;
     float off = texels_to_face(f, own, i, to_tangent);
@@ -248,18 +245,6 @@ uint deciding_faces(TileInFace f, LocalFaces l, int own, float width, out uint w
     bool blocks = (face_nearest > at_border || 2.0 * face_nearest > at_border + a_texel / to_tangent) &&
                   leaves_face(f, 0.5 * widest(f, 2.0 * face_nearest) + 1.0);
     faces |= off < 0.1 || blocks ? 1u << i : 0u;
-    with_pixels |= off < 0.1 ? 1u << i : 0u;
-  }
-  return faces;
-}
-
-// The faces of `faces` without those of `others` that hold no blocker for the tile.
-uint without_clear_faces(TileBounds t, LocalFaces l, uint faces, uint others) {
-  RayHull hull = ray_hull(t, l);
-  while (others != 0u) {
-    int face = findLSB(others);
-    faces &= face_is_clear(l, hull, face) ? ~(1u << face) : ~0u;
-    others &= others - 1u;
   }
   return faces;
 }
@@ -287,9 +272,7 @@ uint classify_cube(TileBounds t, LocalFaces l, int most_turns, out bool in_face)
   if (!fits) return kUnknown;
   bool clear;
   float width = widest_region(of_own, clear), coarse;
-  uint with_pixels, faces = deciding_faces(of_own, l, own, width, with_pixels);
-  in_face = bitCount(faces) == 1;
-  if (kFilter == 3u) faces = without_clear_faces(t, l, faces, faces & ~with_pixels);
+  uint faces = deciding_faces(of_own, l, own, width);
   bool several = bitCount(faces) > 1;
   if (bitCount(faces) > most_faces) return kUnknown;
   float stretch = several ? most_stretch : 1.0;
@@ -304,7 +287,7 @@ uint classify_cube(TileBounds t, LocalFaces l, int most_turns, out bool in_face)
   float reach = kernels_reach(width, coarse);
   // A texel of the filter's coarser mip is up to half as wide as the penumbra, and the kernel is eight texels wide: it
   // reaches up to two penumbra widths from the receiver.
-  in_face = in_face && !leaves_face(of_own, max(reach, 2.0 * width + 2.0)) && width <= of_own.near_width;
+  in_face = !several && !leaves_face(of_own, max(reach, 2.0 * width + 2.0)) && width <= of_own.near_width;
   if (!fits || (several && reach > 0.125 * of_own.size)) return kUnknown;
   bool whole = !reads_other_faces(of_own, l, own, faces, reach * stretch + 1.0);
   uint verdict = kNotAsked;

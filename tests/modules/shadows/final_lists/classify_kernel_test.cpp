@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "tests/modules/shadows/support/final_lists/classify_kernels.h"
-#include "tests/modules/shadows/support/traced_disc.h"
 #include "tests/support/scale.h"
 
 // The shaders of classify.glsl on synthetic tiles and maps. Their verdicts are compared with a brute-force search of
@@ -449,45 +448,6 @@ TEST_F(ClassifyKernels, find_blockers_in_the_neighbouring_face) {
     }
   }
   EXPECT_GE(tested, 16u);
-}
-
-// A lamp on a post whose top is nearer to the light than the lamp's search regions are wide. Only rays to a wide
-// emitter meet it.
-TEST_F(ClassifyKernels, are_lit_beside_the_lamps_own_post) {
-  constexpr std::uint32_t kTile = 4 * 12 + 6;
-  const glm::dmat3 cube = cube_axes();
-  std::uint32_t tested = 0, lit = 0;
-  for (int i = 0; i < 24; ++i) {
-    const dvec3 ahead = (i % 2 == 0 ? 1.0 : -1.0) * cube[i / 2 % 3];
-    const dvec3 aside = (i / 6 % 2 == 0 ? 1.0 : -1.0) * cube[(i / 2 + 1 + i / 12) % 3];
-    const dvec3 from_light = 2.0 * ahead + aside;
-    const dvec3 normal = glm::normalize(dvec3(0.0, 0.0, 0.5) - glm::normalize(from_light));
-    if (normal.z < 0.3) continue;
-    for (const double width : {0.25, 0.65}) {
-      SimpleScene s = simple_scene(CubePart::face_middle, 5, 0.0, 128);
-      for (ClassifyTile& tile : s.scene.tiles) tile.groups[0].clear();
-      fill_group(s.scene, kTile, 0, uvec2(2), uvec2(5), kClassifyMiddle, normal);
-      const std::vector<ClassifyPixel>& pixels = s.scene.tiles[kTile].groups[0];
-      ASSERT_FALSE(pixels.empty());
-      const dvec3 position = pixels[0].position - from_light;
-      const RayScene post = rectangle(position + 0.26 * aside, aside, glm::dvec2(0.05));
-      s.scene.lights[1] = classify_cube(position, width);
-      draw_classify_maps(s.scene, nearest_of({plane(pixels[0].position, normal), post}));
-      const bool hidden = std::ranges::any_of(pixels, [&](const ClassifyPixel& pixel) {
-        return traced_disc(post, pixel.position, position, glm::normalize(position - pixel.position), width) < 1.0;
-      });
-      const std::string what = "direction " + std::to_string(i) + ", width " + std::to_string(width);
-      EXPECT_EQ(hidden, width > 0.6) << what;
-      const std::uint32_t slot = classify(s.scene).slot(kTile, 1);
-      if (hidden) {
-        EXPECT_EQ(slot, kTile) << what;
-      }
-      lit += slot == GLOAM_ALL_LIT ? 1 : 0;
-      ++tested;
-    }
-  }
-  EXPECT_GE(tested, 24u);
-  EXPECT_GE(lit * 5, tested * 2) << "half of the lamps are narrow, and few tiles are too long for the bounds";
 }
 
 }  // namespace
