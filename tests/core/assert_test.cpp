@@ -55,7 +55,7 @@ TEST(AssertDeathTest, the_default_handler_prints_the_sentence_and_aborts) {
         set_assert_handler(nullptr);
         GLOAM_ASSERT(false, "this never holds");
       },
-      "assert_test.cpp:[0-9]+: this never holds \\(false\\)");
+      "assert_test.cpp:.*: this never holds \\(false\\)");
 }
 
 TEST(AssertDeathTest, a_handler_that_returns_still_ends_the_program) {

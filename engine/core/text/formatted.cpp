@@ -13,8 +13,16 @@ namespace {
 
 int print_in_c_locale(char* target, std::size_t size, const char* format, std::va_list arguments) {
   static const _locale_t c_locale = _create_locale(LC_ALL, "C");
-  return target == nullptr ? _vscprintf_l(format, c_locale, arguments)
-                           : _vsnprintf_l(target, size, format, c_locale, arguments);
+#ifndef _UCRT
+  // The old C library writes exponents with three digits unless this is set, for the whole process.
+  const unsigned before = _set_output_format(_TWO_DIGIT_EXPONENT);
+#endif
+  const int length = target == nullptr ? _vscprintf_l(format, c_locale, arguments)
+                                       : _vsnprintf_l(target, size, format, c_locale, arguments);
+#ifndef _UCRT
+  _set_output_format(before);
+#endif
+  return length;
 }
 
 #else

@@ -34,13 +34,6 @@ void CrewState::release() {
   if (holders.fetch_sub(1, std::memory_order_acq_rel) == 1) delete this;
 }
 
-void CrewState::announce() {
-  // Sequentially consistent, because a sleeper increments `sleepers` and then waits for the epoch to change: either
-  // this thread sees the sleeper, or the sleeper sees the new epoch.
-  epoch.fetch_add(1, std::memory_order_seq_cst);
-  if (sleepers.load(std::memory_order_seq_cst) > 0) epoch.notify_all();
-}
-
 bool CrewState::help_deeper_than(std::uint32_t depth, bool was_idle) {
   // A thread that has seen the epoch of an offer sees the offered region here.
   if (first.load(std::memory_order_acquire) == nullptr) return false;
@@ -65,11 +58,11 @@ bool CrewState::help_deeper_than(std::uint32_t depth, bool was_idle) {
 
 bool CrewState::spin(std::uint32_t seen) const {
   for (int i = 0; i < kPausesBeforeYield && !crowded; ++i) {
-    if (epoch.load(std::memory_order_acquire) != seen) return true;
+    if (epoch.now(std::memory_order_acquire) != seen) return true;
     pause_core();
   }
   const auto deadline = Clock::now() + kSpinTime;
-  while (epoch.load(std::memory_order_acquire) == seen) {
+  while (epoch.now(std::memory_order_acquire) == seen) {
     std::this_thread::yield();
     if (Clock::now() >= deadline) return false;
   }
@@ -78,11 +71,11 @@ bool CrewState::spin(std::uint32_t seen) const {
 
 void CrewState::visit() {
   while (!closing.load(std::memory_order_relaxed)) {
-    const std::uint32_t seen = epoch.load(std::memory_order_seq_cst);
+    const std::uint32_t seen = epoch.now(std::memory_order_seq_cst);
     if (help_deeper_than(0, true) || spin(seen)) continue;
     // An offer that still counted this helper as idle had advanced the epoch before it read `idle`.
     idle.fetch_sub(1, std::memory_order_seq_cst);
-    if (epoch.load(std::memory_order_seq_cst) == seen) return;
+    if (epoch.now(std::memory_order_seq_cst) == seen) return;
     idle.fetch_add(1, std::memory_order_relaxed);
   }
   idle.fetch_sub(1, std::memory_order_relaxed);
@@ -160,12 +153,10 @@ void Crew::offer(Region& region, std::uint32_t wanted) {
 
 void Crew::wait(const Region& region, const std::function<bool()>& done) {
   while (true) {
-    const std::uint32_t seen = state_->epoch.load(std::memory_order_seq_cst);
+    const std::uint32_t seen = state_->epoch.now(std::memory_order_seq_cst);
     if (done()) return;
     if (state_->help_deeper_than(region.depth_, false) || state_->spin(seen)) continue;
-    state_->sleepers.fetch_add(1, std::memory_order_seq_cst);
-    state_->epoch.wait(seen, std::memory_order_seq_cst);
-    state_->sleepers.fetch_sub(1, std::memory_order_relaxed);
+    state_->epoch.sleep(seen);
   }
 }
 

@@ -9,6 +9,7 @@
 #include <memory>
 #include <mutex>
 
+#include "engine/jobs/pool/epoch.h"
 #include "engine/jobs/pool/own_threads.h"
 #include "engine/jobs/pool/shared_workers.h"
 
@@ -69,14 +70,13 @@ struct CrewState {
   /// Spins until the epoch differs from `seen` (returns true) or a short time has passed (returns false).
   [[nodiscard]] bool spin(std::uint32_t seen) const;
   /// Tells spinning and sleeping threads that something they may wait for has changed.
-  void announce();
+  void announce() { epoch.announce(); }
   void release();
 
   const bool crowded;  ///< more threads than cores: spinning would take the core from a thread that has work
   std::mutex mutex;
   std::atomic<Region*> first = nullptr;  ///< open regions, latest first; the mutex guards writes and the links
-  std::atomic<std::uint32_t> epoch = 0;  ///< counts announcements
-  std::atomic<std::uint32_t> sleepers = 0;
+  Epoch epoch;
   std::atomic<std::uint32_t> idle = 0;     ///< helpers that spin, or that were called and have not looked for work yet
   std::atomic<std::uint32_t> holders = 1;  ///< owners of this state: the crew and each visit, enqueued or running
   std::atomic<bool> closing = false;
