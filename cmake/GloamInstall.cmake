@@ -98,7 +98,7 @@ endforeach()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/engine DESTINATION ${gloam_include_dir} COMPONENT gloam
   FILES_MATCHING PATTERN "*.h" ${gloam_internal_patterns})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/modules DESTINATION ${gloam_include_dir} COMPONENT gloam
-  FILES_MATCHING REGEX "/modules/[a-z_]+/(components|module|outputs|light_names|module_list|bake|baked_light|captures)\\.h$"
+  FILES_MATCHING REGEX "/modules/[a-z_]+/(components|module|outputs|gloam|light_names|module_list|bake|baked_light|captures)\\.h$"
   REGEX "/modules/(lights/(bins|masks|selection)|closeups/umbra|reflections/culling|grass/growth)/[a-z_]+\\.h$")
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/shaders DESTINATION ${gloam_include_dir} COMPONENT gloam
   FILES_MATCHING REGEX "_(shared\\.h|api\\.glsl)$|/shaders/common/[a-z_]+\\.(h|glsl)$" PATTERN "sandbox" EXCLUDE)

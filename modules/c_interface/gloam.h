@@ -1,7 +1,7 @@
-/* SPDX-FileCopyrightText: The gloam authors
- * SPDX-License-Identifier: MIT
- *
- * gloam for C, and for every language that calls C.
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+
+/* gloam for C, and for every language that calls C.
  *
  * Handles are opaque. A function that can fail returns a gloam_result; gloam_error_message() then holds one sentence
  * about what failed and where. No exception leaves this interface. Lengths are in metres, angles in radians, light in
@@ -59,18 +59,19 @@ typedef enum gloam_log_level {
  * extensions that gloam needs are in docs/embedding.md. */
 typedef struct gloam_vulkan_device {
   size_t size;
-  void* instance;                 /* VkInstance */
-  void* physical_device;          /* VkPhysicalDevice */
-  void* device;                   /* VkDevice */
-  void* queue;                    /* VkQueue: receives all of gloam's work */
-  uint32_t queue_family;          /* of the queue; must support graphics and compute */
-  uint32_t api_version;           /* of the instance, at least VK_API_VERSION_1_3 */
-  void* get_instance_proc_addr;   /* PFN_vkGetInstanceProcAddr */
-  const char* const* extensions;  /* that the host passed to vkCreateDevice */
+  void* instance;                /* VkInstance */
+  void* physical_device;         /* VkPhysicalDevice */
+  void* device;                  /* VkDevice */
+  void* queue;                   /* VkQueue: receives all of gloam's work */
+  uint32_t queue_family;         /* of the queue; must support graphics and compute */
+  uint32_t api_version;          /* of the instance, at least VK_API_VERSION_1_3 */
+  void* get_instance_proc_addr;  /* PFN_vkGetInstanceProcAddr */
+  const char* const* extensions; /* that the host passed to vkCreateDevice */
   uint32_t extension_count;
-  const void* features;           /* const VkPhysicalDeviceFeatures2*: as passed to vkCreateDevice */
+  const void* features; /* const VkPhysicalDeviceFeatures2*: as passed to vkCreateDevice */
 } gloam_vulkan_device;
-#define GLOAM_VULKAN_DEVICE_INIT {sizeof(gloam_vulkan_device), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}
+#define GLOAM_VULKAN_DEVICE_INIT \
+  { sizeof(gloam_vulkan_device), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0 }
 
 typedef struct gloam_engine_info {
   size_t size;
@@ -82,7 +83,8 @@ typedef struct gloam_engine_info {
   void* log_user;
   const gloam_vulkan_device* vulkan; /* null: the engine creates its own device */
 } gloam_engine_info;
-#define GLOAM_ENGINE_INFO_INIT {sizeof(gloam_engine_info), 0, 0, 0, 0, 0, 0, 0}
+#define GLOAM_ENGINE_INFO_INIT \
+  { sizeof(gloam_engine_info), 0, 0, 0, 0, 0, 0, 0 }
 
 /* info may be null: all defaults. */
 gloam_result gloam_engine_create(const gloam_engine_info* info, gloam_engine** engine);
@@ -131,7 +133,8 @@ typedef struct gloam_material {
   float roughness;
   int32_t double_sided;
 } gloam_material;
-#define GLOAM_MATERIAL_INIT {sizeof(gloam_material), {1.0f, 1.0f, 1.0f, 1.0f}, {0.0f, 0.0f, 0.0f}, 0.0f, 1.0f, 0}
+#define GLOAM_MATERIAL_INIT \
+  { sizeof(gloam_material), {1.0f, 1.0f, 1.0f, 1.0f}, {0.0f, 0.0f, 0.0f}, 0.0f, 1.0f, 0 }
 
 gloam_result gloam_material_create(gloam_world* world, const gloam_material* material, uint32_t* number);
 
@@ -144,9 +147,10 @@ typedef struct gloam_mesh {
   const uint32_t* indices; /* 3 a triangle; null: 0, 1, 2, ... */
   uint32_t vertex_count;
   uint32_t index_count;
-  uint32_t material;       /* of gloam_material_create() */
+  uint32_t material; /* of gloam_material_create() */
 } gloam_mesh;
-#define GLOAM_MESH_INIT {sizeof(gloam_mesh), 0, 0, 0, 0, 0, 0, 0}
+#define GLOAM_MESH_INIT \
+  { sizeof(gloam_mesh), 0, 0, 0, 0, 0, 0, 0 }
 
 gloam_result gloam_mesh_create(gloam_world* world, const gloam_mesh* mesh, uint32_t* number);
 /* Draws a mesh at a pose. */
@@ -173,8 +177,8 @@ typedef struct gloam_light {
   float apparent_angle; /* directional: apparent diameter */
   int32_t casts_shadows;
 } gloam_light;
-#define GLOAM_LIGHT_INIT                                                                                             \
-  {sizeof(gloam_light), GLOAM_LIGHT_POINT, {1.0f, 1.0f, 1.0f}, 1.0f, 0.0f, 0.0f, 0.785398163f, 0.0f, 0.00925025f, 1}
+#define GLOAM_LIGHT_INIT \
+  { sizeof(gloam_light), GLOAM_LIGHT_POINT, {1.0f, 1.0f, 1.0f}, 1.0f, 0.0f, 0.0f, 0.785398163f, 0.0f, 0.00925025f, 1 }
 
 gloam_result gloam_light_create(gloam_world* world, const gloam_light* light, const double matrix[16],
                                 gloam_entity* entity);
@@ -201,25 +205,28 @@ typedef struct gloam_host_geometry {
   uint32_t emissive_format;
   int32_t draws_meshes; /* not 0: gloam also draws the world's own meshes */
 } gloam_host_geometry;
-#define GLOAM_HOST_GEOMETRY_INIT {sizeof(gloam_host_geometry), 0, 0, 0.1f, 0, 0, 0, 0, 0, 0, 0, 0, 1}
+#define GLOAM_HOST_GEOMETRY_INIT \
+  { sizeof(gloam_host_geometry), 0, 0, 0.1f, 0, 0, 0, 0, 0, 0, 0, 0, 1 }
 
 typedef struct gloam_view {
   size_t size;
-  uint32_t id;     /* keeps the view's memory and history from frame to frame; below 2^26 */
-  uint32_t width;  /* pixels */
+  uint32_t id;    /* keeps the view's memory and history from frame to frame; below 2^26 */
+  uint32_t width; /* pixels */
   uint32_t height;
-  gloam_entity camera;    /* of the scene; 0: the members below */
-  double matrix[16];      /* pose of the camera: rotation and translation */
-  float fov_y;            /* vertical field of view */
+  gloam_entity camera; /* of the scene; 0: the members below */
+  double matrix[16];   /* pose of the camera: rotation and translation */
+  float fov_y;         /* vertical field of view */
   float near_m;
-  const char* visualizer; /* null: the lit picture */
+  const char* visualizer;              /* null: the lit picture */
   const gloam_host_geometry* geometry; /* null: gloam draws all geometry */
-  uint64_t image;         /* VkImage of the host that takes the picture; 0: gloam_read_picture() */
-  uint32_t image_format;  /* VkFormat: R8G8B8A8 or B8G8R8A8, UNORM or SRGB; left in COLOR_ATTACHMENT_OPTIMAL */
+  uint64_t image;                      /* VkImage of the host that takes the picture; 0: gloam_read_picture() */
+  uint32_t image_format; /* VkFormat: R8G8B8A8 or B8G8R8A8, UNORM or SRGB; left in COLOR_ATTACHMENT_OPTIMAL */
 } gloam_view;
-#define GLOAM_VIEW_INIT                                                                                      \
-  {sizeof(gloam_view), 0, 1280, 720, 0, {1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, \
-   0.0, 1.0}, 0.8f, 0.1f, 0, 0, 0, 0}
+#define GLOAM_VIEW_INIT                                                                                          \
+  {                                                                                                              \
+    sizeof(gloam_view), 0, 1280, 720, 0,                                                                         \
+        {1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0}, 0.8f, 0.1f, 0, 0, 0, 0 \
+  }
 
 /* Draws one frame of all these views and submits it; does not wait for the GPU. */
 gloam_result gloam_render(gloam_world* world, const gloam_view* views, uint32_t count);

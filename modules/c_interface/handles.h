@@ -52,8 +52,8 @@ void keep_message(std::string sentence);
 [[nodiscard]] inline Error usage_error(std::string sentence) { return {ErrorKind::usage, std::move(sentence)}; }
 
 /// Runs the body of a function of the interface: nothing is thrown out of it.
-template <std::invocable Body>
-[[nodiscard]] gloam_result guarded(Body&& body) {
+template <std::invocable F>
+[[nodiscard]] gloam_result guarded(F&& body) {
   try {
     keep_message({});
     const Status status = body();

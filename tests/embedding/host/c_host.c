@@ -1,7 +1,7 @@
-/* SPDX-FileCopyrightText: The gloam authors
- * SPDX-License-Identifier: MIT
- *
- * The smallest host in C: the scene of minimal.cpp through gloam.h, written to minimal_c.ppm. Then every wrong argument
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+
+/* The smallest host in C: the scene of minimal.cpp through gloam.h, written to minimal_c.ppm. Then every wrong argument
  * that it can think of, each of which must give a code and a sentence. */
 #include <math.h>
 #include <stdio.h>
