@@ -96,6 +96,10 @@ const char* gloam_engine_device_name(const gloam_engine* engine);
 gloam_result gloam_engine_set_knob(gloam_engine* engine, const char* knob, const char* value);
 /* Validation messages so far; 0 without `validate`. */
 uint64_t gloam_engine_validation_messages(const gloam_engine* engine);
+/* Call it before you destroy a VkImage that views have named (gloam_view, gloam_host_geometry), after the frames that
+ * use it have finished on the GPU (gloam_engine_wait()): another image may get the same handle. Unknown images are
+ * allowed. */
+gloam_result gloam_engine_forget_image(gloam_engine* engine, uint64_t image);
 /* Waits until the GPU has finished everything submitted. */
 gloam_result gloam_engine_wait(gloam_engine* engine);
 /* Frees memory of the GPU that the last frame did not use. */

@@ -32,8 +32,7 @@ gpu::Format format_of(std::uint32_t format) {
   }
 }
 
-/// The handle of a host's image. An image that was destroyed and made again may have the same name: it is imported
-/// again if anything about it has changed.
+/// The handle of a host's image. It is imported again if anything about it has changed.
 Result<gpu::ImageHandle> import(gloam_engine& engine, std::uint64_t image, std::uint32_t format, const gloam_view& view,
                                 gpu::ImageUsage usage, const char* name) {
   gpu::ImageDesc desc;
@@ -127,3 +126,14 @@ Status use_host_images(gloam_engine& engine, const gloam_view& view, ViewRequest
 }
 
 }  // namespace gloam::c_interface
+
+extern "C" gloam_result gloam_engine_forget_image(gloam_engine* engine, uint64_t image) {
+  return gloam::c_interface::guarded([&]() -> gloam::Status {
+    if (engine == nullptr) return gloam::c_interface::usage_error("gloam_engine_forget_image: engine is null");
+    std::erase_if(engine->images, [&](const gloam_imported_image& kept) {
+      if (kept.image == image) engine->device->destroy(kept.handle);
+      return kept.image == image;
+    });
+    return {};
+  });
+}

@@ -124,6 +124,7 @@ static void try_wrong_arguments(gloam_engine* engine, gloam_world* world, const 
   light.intensity = 1.0f;
   light.kind = (gloam_light_kind)7;
   expect("a kind of light", gloam_light_create(world, &light, at, &entity), GLOAM_USAGE, "kind is 7");
+  expect("an unknown image", gloam_engine_forget_image(engine, 77), GLOAM_OK, "");
   expect("no views", gloam_render(world, NULL, 1), GLOAM_USAGE, "views is null");
   expect("none of the views", gloam_render(world, good, 0), GLOAM_USAGE, "count is 0");
   view.width = 0;
