@@ -46,6 +46,8 @@ Result<dmat4> matrix_of(const double* matrix, const char* name) {
       if (!std::isfinite(value)) return usage_error(std::string(name) + " holds a number that is not finite");
       read[column][row] = value;
     }
+  if (read[0][3] != 0.0 || read[1][3] != 0.0 || read[2][3] != 0.0 || read[3][3] != 1.0)
+    return usage_error(std::string(name) + ": the last row of a pose is 0, 0, 0, 1");
   return read;
 }
 

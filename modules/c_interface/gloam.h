@@ -11,7 +11,7 @@
  * against an older header then works with a newer library, which takes the defaults for members that the program does
  * not know. A structure larger than the library's own is GLOAM_USAGE.
  *
- * An engine and its worlds are used by one thread at a time. Different engines may be used at the same time.
+ * An engine and its worlds are used by one thread at a time.
  */
 #ifndef GLOAM_H
 #define GLOAM_H
@@ -110,7 +110,7 @@ gloam_result gloam_engine_free_idle_memory(gloam_engine* engine);
 gloam_result gloam_world_create(gloam_engine* engine, gloam_world** world);
 /* Null is allowed. */
 gloam_result gloam_world_destroy(gloam_world* world);
-/* Adds the content of a .gltf or .glb file to an empty world. */
+/* Adds the content of a .gltf or .glb file to an empty world. After a failure, destroy the world. */
 gloam_result gloam_world_load(gloam_world* world, const char* path);
 /* Simulated time of the next frame and since the frame before it, in seconds. */
 gloam_result gloam_world_set_clock(gloam_world* world, double time_s, double dt_s);
@@ -124,7 +124,8 @@ gloam_result gloam_world_find(gloam_world* world, const char* kind, const char* 
 
 /* Removes an entity of the world. */
 gloam_result gloam_entity_destroy(gloam_world* world, gloam_entity entity);
-/* Pose in the world: rotation, translation and scale, from the next frame on. */
+/* Pose in the world: rotation, translation and scale, from the next frame on. A node of a file then follows neither its
+ * parent nor an animation. */
 gloam_result gloam_entity_set_matrix(gloam_world* world, gloam_entity entity, const double matrix[16]);
 
 /* ---- Materials and meshes ---- */

@@ -21,7 +21,7 @@
 
 // What the handles of gloam.h stand for, and what all its functions share.
 
-/// A host's images that an engine has imported. They live until the engine ends or the host names others.
+/// An image of the host that an engine has imported, until the engine ends or the host has it forgotten.
 struct gloam_imported_image {
   std::uint64_t image = 0;  ///< VkImage
   gloam::gpu::ImageDesc desc;
@@ -86,7 +86,7 @@ template <class T>
 /// Usage error if there is no such entity.
 [[nodiscard]] Result<Entity> entity_of(const World& world, gloam_entity number);
 
-/// Usage error if the matrix is null or not finite.
+/// Usage error if the matrix is null, not finite, or a projection.
 [[nodiscard]] Result<dmat4> matrix_of(const double* matrix, const char* name);
 
 /// Creates the engine's device on a host's.

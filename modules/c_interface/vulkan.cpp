@@ -32,7 +32,8 @@ gpu::Format format_of(std::uint32_t format) {
   }
 }
 
-/// The handle of a host's image. It is imported again if anything about it has changed.
+/// The handle of a host's image with this description. Handles stay until the host has the image forgotten: other views
+/// of the frame may use them.
 Result<gpu::ImageHandle> import(gloam_engine& engine, std::uint64_t image, std::uint32_t format, const gloam_view& view,
                                 gpu::ImageUsage usage, const char* name) {
   gpu::ImageDesc desc;
@@ -42,19 +43,15 @@ Result<gpu::ImageHandle> import(gloam_engine& engine, std::uint64_t image, std::
   desc.width = view.width;
   desc.height = view.height;
   desc.usage = usage;
-  if (desc.format == gpu::Format::undefined)
+  const bool is_picture = desc.format == gpu::Format::rgba8_unorm || desc.format == gpu::Format::rgba8_srgb ||
+                          desc.format == gpu::Format::bgra8_unorm || desc.format == gpu::Format::bgra8_srgb;
+  if (desc.format == gpu::Format::undefined || (usage == gpu::ImageUsage::color_target && !is_picture))
     return usage_error(std::string(name) + "_format is " + std::to_string(format) +
                        ", which gloam does not take there");
-  for (gloam_imported_image& kept : engine.images) {
-    if (kept.image != image) continue;
-    if (kept.desc.format == desc.format && kept.desc.width == desc.width && kept.desc.height == desc.height &&
-        kept.desc.usage == desc.usage)
+  for (const gloam_imported_image& kept : engine.images)
+    if (kept.image == image && kept.desc.format == desc.format && kept.desc.width == desc.width &&
+        kept.desc.height == desc.height && kept.desc.usage == desc.usage)
       return kept.handle;
-    engine.device->destroy(kept.handle);
-    kept.desc = desc;
-    kept.handle = gpu::import_image(*engine.device, reinterpret_cast<VkImage>(image), desc);
-    return kept.handle;
-  }
   engine.images.push_back({image, desc, gpu::import_image(*engine.device, reinterpret_cast<VkImage>(image), desc)});
   return engine.images.back().handle;
 }

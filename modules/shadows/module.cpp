@@ -177,6 +177,7 @@ class ShadowsModule final : public Module {
     sink.count("shadows.faces_at_limit", view_faces.faces_at_limit);
     sink.count("shadows.faces_left_out", view_faces.faces_left_out);
     sink.count("shadows.faces_waiting", view_faces.faces_waiting);
+    sink.count("shadows.views_in_turns", static_cast<double>(states_.views_in_turns()));
     sink.count("shadows.atlas_used", static_cast<double>(view_faces.atlas.used_texels()) / std::max(texels, 1.0));
   }
 
@@ -222,6 +223,10 @@ class ShadowsModule final : public Module {
     if (view_faces.faces_left_out > 0)
       once_log_.warning(
           log, "some lights cast no shadow: the atlas is full (shadows.atlas, counter shadows.faces_left_out)");
+    if (states_.views_in_turns() > 1)  // one alone keeps its maps
+      once_log_.warning(log,
+                        "some views draw their shadow maps anew in each frame: the maps of all views take more memory "
+                        "than shadows.kept_atlases (counter shadows.views_in_turns)");
     for (const std::string& fault : frame.world().resource<Cookies>().faults) once_log_.warning(log, fault);
   }
 

@@ -41,8 +41,12 @@ def build_rust(build, source, prefix):
 
 def main(build, source, prefix):
     (wanted,) = pictures(build, "minimal", "minimal.ppm")
-    first, old = pictures(build, "c_host", "minimal_c.ppm", "minimal_c_old.ppm")
-    faults = [name for name, picture in (("C", first), ("C of an older header", old)) if picture != wanted]
+    first, old, again, *others = pictures(build, "c_host", "minimal_c.ppm", "minimal_c_old.ppm", "minimal_c_again.ppm",
+                                          "minimal_c_changed.ppm", "minimal_c_normals.ppm")
+    faults = [name for name, picture in (("C", first), ("C of an older header", old), ("C after changes", again))
+              if picture != wanted]
+    if wanted in others:
+        sys.exit("a lamp, a pyramid or the visualizer that the host in C has added is not in its picture")
     if build_rust(build, source, prefix) and pictures(build, "rust_host", "minimal_rust.ppm") != [wanted]:
         faults.append("Rust")
     if faults:

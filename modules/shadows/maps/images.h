@@ -28,9 +28,9 @@ enum class MapImage : std::uint8_t {
 /// Identifies the images of this size and format in which views of a world take turns; never 0.
 [[nodiscard]] std::uint64_t turn_instance(const ShadowKnobs& knobs);
 
-/// takes_turns: the image in which views of the world take turns (ShadowStates::take_turn), in place of the view's own.
 /// The image in this frame; created on first use, anew if its size or format has changed. Null, and the frame is given
-/// up, if it cannot be created.
+/// up, if it cannot be created. takes_turns: the image in which views of the world take turns
+/// (ShadowStates::take_turn), in place of the view's own.
 [[nodiscard]] HistoryImage use_map_image(FrameBuilder& frame, const ViewFaces& view_faces, const ShadowKnobs& knobs,
                                          bool takes_turns, MapImage image);
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "modules/shadows/maps/state.h"
 
+#include <algorithm>
 #include <iterator>
 #include <set>
 
@@ -50,6 +51,11 @@ void ShadowStates::choose_images(const ViewFaces& faces, const ShadowKnobs& knob
   for (const auto& [key, other] : views_)
     if (other.number < view.number && !other.takes_turns) bytes += other.image_bytes;
   view.takes_turns = faces.shared == nullptr && bytes > knobs.kept_atlas_bytes;
+}
+
+std::size_t ShadowStates::views_in_turns() const {
+  return static_cast<std::size_t>(
+      std::count_if(views_.begin(), views_.end(), [](const auto& view) { return view.second.takes_turns; }));
 }
 
 bool ShadowStates::take_turn(std::uint64_t world, const ViewMapState& view, const ShadowKnobs& knobs,

@@ -49,6 +49,8 @@ class ShadowStates {
   /// their own in the order in which they came, while all of them fit in knobs.kept_atlas_bytes. Views with companions
   /// and captures always have their own, which they share among themselves.
   void choose_images(const ViewFaces& faces, const ShadowKnobs& knobs, ViewMapState& view) const;
+  /// Views that take turns; those of all worlds.
+  [[nodiscard]] std::size_t views_in_turns() const;
   /// Gives the images of a world to the view until the next view takes them. Returns whether they hold what the view
   /// has left there. frame: FrameGraph::frame.
   [[nodiscard]] bool take_turn(std::uint64_t world, const ViewMapState& view, const ShadowKnobs& knobs,

@@ -146,6 +146,56 @@ static void try_wrong_arguments(gloam_engine* engine, gloam_world* world, const 
   expect("a view that was not drawn", gloam_read_picture(world, 99, little, sizeof(little), NULL, NULL), GLOAM_USAGE, "99");
 }
 
+/* Everything that has no place in the smallest host. What is added is removed again, so the picture stays. */
+static void try_the_rest(gloam_engine* engine, gloam_world* world, const gloam_view* view) {
+  const double at[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+  double up[16];
+  gloam_light light = GLOAM_LIGHT_INIT;
+  gloam_view normals = *view;
+  gloam_entity lamp = 0, copy = 0;
+  memcpy(up, at, sizeof(up));
+  up[13] = 1.0;
+  if (gloam_engine_device_name(engine)[0] == 0) printf("the device has no name\n"), ++faults;
+  expect("a knob", gloam_engine_set_knob(engine, "shadows.filter", "chs"), GLOAM_OK, "");
+  expect("a clock", gloam_world_set_clock(world, 0.0, 1.0 / 60.0), GLOAM_OK, "");
+  expect("a second lamp", gloam_light_create(world, &light, up, &lamp), GLOAM_OK, "");
+  light.intensity = 1000.0f;
+  light.casts_shadows = 0;
+  expect("a brighter lamp", gloam_light_set(world, lamp, &light), GLOAM_OK, "");
+  expect("a second pyramid", gloam_instance_create(world, 0, at, &copy), GLOAM_OK, "");
+  expect("no lamp", gloam_light_set(world, copy, &light), GLOAM_USAGE, "is no light");
+  expect("a higher pyramid", gloam_entity_set_matrix(world, copy, up), GLOAM_OK, "");
+  expect("a changed frame", draw(world, view, "minimal_c_changed.ppm"), GLOAM_OK, "");
+  expect("the end of a lamp", gloam_entity_destroy(world, lamp), GLOAM_OK, "");
+  expect("the end of a pyramid", gloam_entity_destroy(world, copy), GLOAM_OK, "");
+  expect("a lamp that has ended", gloam_entity_set_matrix(world, lamp, at), GLOAM_USAGE, "no entity");
+  normals.visualizer = "normal";
+  expect("normals", draw(world, &normals, "minimal_c_normals.ppm"), GLOAM_OK, "");
+  expect("the end of a view", gloam_release_view(world, view->id), GLOAM_OK, "");
+  expect("idle memory", gloam_engine_free_idle_memory(engine), GLOAM_OK, "");
+  expect("a frame as before", draw(world, view, "minimal_c_again.ppm"), GLOAM_OK, "");
+  expect("an exposure", gloam_world_set_exposure(world, 2.0f), GLOAM_OK, "");
+  expect("a wait", gloam_engine_wait(engine), GLOAM_OK, "");
+}
+
+/* A file with a camera, which the host moves. */
+static void try_a_file(gloam_engine* engine, const gloam_view* view) {
+  static const char text[] =
+      "{\"asset\": {\"version\": \"2.0\"}, \"scenes\": [{\"nodes\": [0]}], \"nodes\": [{\"name\": \"eye\", \"camera\": 0}],"
+      " \"cameras\": [{\"type\": \"perspective\", \"perspective\": {\"yfov\": 1.0, \"znear\": 0.1}}]}";
+  gloam_world* world = NULL;
+  gloam_view through = *view;
+  FILE* file = fopen("tiny.gltf", "wb");
+  fwrite(text, 1, sizeof(text) - 1, file);
+  fclose(file);
+  expect("a second world", gloam_world_create(engine, &world), GLOAM_OK, "");
+  expect("a file", gloam_world_load(world, "tiny.gltf"), GLOAM_OK, "");
+  expect("its camera", gloam_world_find(world, "camera", "eye", &through.camera), GLOAM_OK, "");
+  expect("another pose", gloam_entity_set_matrix(world, through.camera, view->matrix), GLOAM_OK, "");
+  expect("a frame of the file", draw(world, &through, "tiny.ppm"), GLOAM_OK, "");
+  expect("the end of the second world", gloam_world_destroy(world), GLOAM_OK, "");
+}
+
 int main(void) {
   gloam_engine_info info = GLOAM_ENGINE_INFO_INIT;
   gloam_engine* engine = NULL;
@@ -171,6 +221,8 @@ int main(void) {
   old.size = offsetof(gloam_view, visualizer);
   old.visualizer = "must not be read";
   expect("a frame of an old program", draw(world, &old, "minimal_c_old.ppm"), GLOAM_OK, "");
+  try_the_rest(engine, world, &view);
+  try_a_file(engine, &view);
   if (gloam_engine_validation_messages(engine) != 0) puts("validation is not silent"), ++faults;
   expect("the end of a world", gloam_world_destroy(world), GLOAM_OK, "");
   expect("the end of an engine", gloam_engine_destroy(engine), GLOAM_OK, "");

@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "checks.h"
 #include "engine/gpu/vulkan_device.h"
 #include "engine/gpu/vulkan_interop.h"
 #include "engine/render/readback/picture.h"
@@ -32,24 +33,15 @@ namespace gpu = gloam::gpu;
 using gloam::dvec3, gloam::vec3, gloam::vec4;
 using Texels = std::vector<std::uint8_t>;
 
-constexpr int kSkipped = 77;
 constexpr std::uint32_t kWidth = 160, kHeight = 90;
 constexpr double kEyeHeight = 1.0;
 constexpr std::uint32_t kCubes = 10000;
 const dvec3 kLamp(0.3, 4.0, 0.2);
 
-[[noreturn]] void fail(const std::string& why) {
-  std::fprintf(stderr, "%s\n", why.c_str());
-  std::exit(1);
-}
-template <class T>
-T value_of(gloam::Result<T> result) {
-  if (!result.ok()) fail(result.error().message);
-  return std::move(*result);
-}
-void check(const gloam::Status& status) {
-  if (!status.ok()) fail(status.error().message);
-}
+using host::check;
+using host::fail;
+using host::kSkipped;
+using host::value_of;
 
 /// 10,000 cubes of different sizes at different heights, all above the camera.
 host::Cubes make_cubes() {

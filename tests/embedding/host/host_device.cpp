@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "checks.h"
 #include "engine/gpu/vulkan_device.h"
 #include "engine/gpu/vulkan_interop.h"
 #include "engine/jobs/executor_conformance.h"
@@ -26,24 +27,14 @@ namespace {
 namespace gpu = gloam::gpu;
 using Bytes = std::vector<std::uint8_t>;
 
-constexpr int kSkipped = 77;
 constexpr int kFrames = 3;
 constexpr std::uint32_t kWidth = 200;
 constexpr std::uint32_t kHeight = 120;
 
-[[noreturn]] void fail(const std::string& why) {
-  std::fprintf(stderr, "%s\n", why.c_str());
-  std::exit(1);
-}
-
-template <class T>
-T value_of(gloam::Result<T> result) {
-  if (!result.ok()) fail(result.error().message);
-  return std::move(*result);
-}
-void check(const gloam::Status& status) {
-  if (!status.ok()) fail(status.error().message);
-}
+using host::check;
+using host::fail;
+using host::kSkipped;
+using host::value_of;
 
 /// Two views: view 0 from the front, view 1 from the side at half the resolution.
 gloam::ViewSettings view_settings(std::uint32_t index) {

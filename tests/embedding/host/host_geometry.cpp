@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "box_casters.h"
+#include "checks.h"
 #include "engine/gpu/vulkan_device.h"
 #include "engine/gpu/vulkan_interop.h"
 #include "engine/math/srgb.h"
@@ -35,24 +36,14 @@ namespace {
 namespace gpu = gloam::gpu;
 using Bytes = std::vector<std::uint8_t>;
 
-constexpr int kSkipped = 77;
 constexpr std::uint32_t kWidth = 240;
 constexpr std::uint32_t kHeight = 136;
 constexpr double kNear = 0.2, kFar = 80.0;  // of the host's projection
 
-[[noreturn]] void fail(const std::string& why) {
-  std::fprintf(stderr, "%s\n", why.c_str());
-  std::exit(1);
-}
-
-template <class T>
-T value_of(gloam::Result<T> result) {
-  if (!result.ok()) fail(result.error().message);
-  return std::move(*result);
-}
-void check(const gloam::Status& status) {
-  if (!status.ok()) fail(status.error().message);
-}
+using host::check;
+using host::fail;
+using host::kSkipped;
+using host::value_of;
 
 gloam::ViewSettings camera() {
   gloam::ViewSettings settings;

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "checks.h"
 #include "engine/core/zones.h"
 #include "engine/gpu/vulkan_device.h"
 #include "engine/gpu/vulkan_interop.h"
@@ -30,21 +31,12 @@ namespace {
 
 namespace gpu = gloam::gpu;
 
-constexpr int kSkipped = 77;
 constexpr int kFrames = 6;
 
-[[noreturn]] void fail(const std::string& why) {
-  std::fprintf(stderr, "%s\n", why.c_str());
-  std::exit(1);
-}
-template <class T>
-T value_of(gloam::Result<T> result) {
-  if (!result.ok()) fail(result.error().message);
-  return std::move(*result);
-}
-void check(const gloam::Status& status) {
-  if (!status.ok()) fail(status.error().message);
-}
+using host::check;
+using host::fail;
+using host::kSkipped;
+using host::value_of;
 void expect(bool holds, const std::string& what) {
   if (!holds) fail("WRONG: " + what);
 }

@@ -80,6 +80,7 @@ class ManyViews : public ::testing::Test {
 /// The pictures of all views after the last frame, and the memory of all that was used.
 struct Drawn {
   std::vector<Picture> pictures;
+  double in_turns = 0.0;  ///< counter shadows.views_in_turns
   std::uint64_t shadow_bytes = 0;
   std::uint64_t bytes = 0;
 };
@@ -101,6 +102,7 @@ Drawn draw_many(const char* kept_atlases, std::uint32_t views, int frames, bool 
   for (const ViewRequest& request : requests)
     drawn.pictures.push_back(test::value_of(host.renderer->read_picture(request.settings.id)));
   drawn.shadow_bytes = bytes_of(device, "shadows");
+  drawn.in_turns = host.renderer->report().counters.at("shadows.views_in_turns");
   drawn.bytes = device.memory_totals().used;
   for (const ViewRequest& request : requests) host.renderer->release_view(host.world, request.settings.id);
   host.renderer->release_world(host.world);
@@ -121,6 +123,8 @@ TEST_F(ManyViews, sixty_take_little_memory_beside_one_atlas_and_show_what_each_s
   const Drawn own = draw_many("65536", kViews, 1, true), turns = draw_many("0", kViews, 1, true);
   expect_equal(own, turns);
   EXPECT_LT(turns.shadow_bytes, own.shadow_bytes / 8);
+  EXPECT_EQ(own.in_turns, 0.0);
+  EXPECT_EQ(turns.in_turns, kViews);
   EXPECT_LT(turns.bytes / kViews, std::uint64_t{1} << 20);
 }
 
