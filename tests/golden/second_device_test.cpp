@@ -14,23 +14,34 @@
 namespace gloam::test {
 namespace {
 
-[[nodiscard]] std::unique_ptr<gpu::Device> device_named(const char* name) {
-  gpu::VulkanOptions options = test_device_options();
-  options.device = name;
-  return make_test_device(true, options);
-}
+/// Both devices draw all scenes and keep their pipelines, whose compilation takes most of the time.
+class SecondDevice : public testing::TestWithParam<std::string> {
+ protected:
+  static void SetUpTestSuite() {
+    first = device_named("llvmpipe");
+    second = device_named("swiftshader");
+  }
+  static void TearDownTestSuite() {
+    first.reset();
+    second.reset();
+  }
+  [[nodiscard]] static std::shared_ptr<gpu::Device> device_named(const char* name) {
+    gpu::VulkanOptions options = test_device_options();
+    options.device = name;
+    options.retained_pipelines = 1000;
+    return make_test_device(true, options);
+  }
 
-class SecondDevice : public testing::TestWithParam<std::string> {};
+  inline static std::shared_ptr<gpu::Device> first, second;
+};
 
 // Hard case: passes.second_device
 TEST_P(SecondDevice, draws_the_picture_of_the_first) {
-  auto first = device_named("llvmpipe");
-  auto second = device_named("swiftshader");
   if (first == nullptr || second == nullptr)
     GTEST_SKIP()
         << "there is no usable Vulkan device of SwiftShader and lavapipe (Debian's chromium brings SwiftShader)";
-  const Picture wanted = draw_scene(std::move(first), GetParam(), {}, 360);
-  const Picture found = draw_scene(std::move(second), GetParam(), {}, 360);
+  const Picture wanted = draw_scene(first, GetParam(), {}, 360);
+  const Picture found = draw_scene(second, GetParam(), {}, 360);
   ASSERT_EQ(found.rgba.size(), wanted.rgba.size());
   ASSERT_FALSE(found.rgba.empty());
   // The devices place edges of triangles on grids of different subpixels. Lamps and blades of grass that are about one

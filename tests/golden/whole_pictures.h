@@ -18,7 +18,7 @@ namespace gloam::test {
 
 /// One frame of a scene on this device, `height` rows of 16 : 9. assignments: KNOB=VALUE. Fails the test on an error or
 /// a validation message.
-[[nodiscard]] inline Picture draw_scene(std::unique_ptr<gpu::Device> device, const std::string& scene,
+[[nodiscard]] inline Picture draw_scene(std::shared_ptr<gpu::Device> device, const std::string& scene,
                                         const std::vector<std::string>& assignments, std::uint32_t height = 90) {
   if (device == nullptr) {
     ADD_FAILURE() << "no device";

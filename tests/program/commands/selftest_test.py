@@ -80,7 +80,7 @@ MUTATIONS = (
 # Mutations that each test run tries; the others compile many shaders, or draw many pictures.
 COSTLY_KERNELS = ("kernel.srgb", "kernel.shadow_filter")
 CHEAP = {what for what, name, *_ in MUTATIONS if name.startswith("kernel.") and name not in COSTLY_KERNELS} | {
-    what for what, *_ in MUTATIONS[:3]}
+    what for what, *_ in MUTATIONS[:2]}
 
 # lavapipe rounds numbers beyond half floats to the greatest one, SwiftShader to infinity.
 BEYOND_HALVES = ("finite.glare", "lighting/opaque/deferred.glsl",
