@@ -28,7 +28,6 @@ class SecondDevice : public testing::TestWithParam<std::string> {
   [[nodiscard]] static std::shared_ptr<gpu::Device> device_named(const char* name) {
     gpu::VulkanOptions options = test_device_options();
     options.device = name;
-    options.retained_pipelines = 1000;
     return make_test_device(true, options);
   }
 

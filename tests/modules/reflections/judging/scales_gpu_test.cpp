@@ -5,6 +5,9 @@
 
 #include <cmath>
 #include <cstdio>
+#include <map>
+#include <string>
+#include <utility>
 
 #include "engine/scene/units.h"
 #include "tests/modules/reflections/judging/judged_scene.h"
@@ -95,7 +98,10 @@ class SceneScales : public JudgedReflections {
   }
   void judge(double scale, const dvec3& place, const char* tiers, bool stated) {
     set("reflections.tiers", tiers);
-    const Drawn usual = draw_scaled(1.0, dvec3(0.0), false), other = draw_scaled(scale, place, stated);
+    auto [usual_place, missing] = usual_pictures.try_emplace({tiers, orthographic});
+    if (missing) usual_place->second = draw_scaled(1.0, dvec3(0.0), false);
+    const Drawn& usual = usual_place->second;
+    const Drawn other = draw_scaled(scale, place, stated);
     const double difference = mean_difference(usual.picture, other.picture);
     std::printf("scale %g%s at %g m, %s: mean difference %.3f of 255 (reflections: %.1f)\n", scale,
                 stated ? " (stated)" : "", glm::length(place), tiers, difference, usual.reflected);
@@ -103,6 +109,8 @@ class SceneScales : public JudgedReflections {
     EXPECT_LT(difference, kMostMean) << tiers;
   }
 
+  /// Pictures at the usual scale and place, by tiers and whether the camera is orthographic.
+  inline static std::map<std::pair<std::string, bool>, Drawn> usual_pictures;
   bool orthographic = false;
   std::uint32_t views = 0;
 };
