@@ -29,12 +29,13 @@
 #include "modules/module_list/module_list.h"
 #include "own_shading.h"
 #include "thread_executor.h"
+#include "traced_boxes.h"
 #include "vulkan_host.h"
 
 namespace {
 
 namespace gpu = gloam::gpu;
-using Bytes = std::vector<std::uint8_t>;
+using host::append, host::Bytes, host::difference, host::Difference, host::for_each_pixel, host::Hit, host::unorm;
 
 constexpr std::uint32_t kWidth = 240;
 constexpr std::uint32_t kHeight = 136;
@@ -53,73 +54,26 @@ gloam::ViewSettings camera() {
   return settings;
 }
 
-/// The first surface along a ray. distance: infinite if there is none.
-struct Hit {
-  double distance = std::numeric_limits<double>::infinity();
-  gloam::dvec3 normal = gloam::dvec3(0.0);
-  const host::LittleBox* box = nullptr;
-};
-
-Hit trace(const gloam::dvec3& origin, const gloam::dvec3& direction) {
-  Hit hit;
-  for (const host::LittleBox& box : host::kLittleBoxes) {
-    double enter = 0.0, leave = std::numeric_limits<double>::infinity();
-    int axis_of_entry = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double half = static_cast<double>(box.half_m[axis]);
-      double near = (box.position[axis] - half - origin[axis]) / direction[axis];
-      double far = (box.position[axis] + half - origin[axis]) / direction[axis];
-      if (near > far) std::swap(near, far);
-      if (near > enter) axis_of_entry = axis;
-      enter = std::max(enter, near);
-      leave = std::min(leave, far);
-    }
-    if (!(enter < leave) || enter <= 0.0 || enter >= hit.distance) continue;
-    hit = {enter, gloam::dvec3(0.0), &box};
-    hit.normal[axis_of_entry] = direction[axis_of_entry] > 0.0 ? -1.0 : 1.0;
-  }
-  return hit;
-}
-
 /// The host's images, four bytes a texel, as it would have drawn them.
 struct Drawn {
   Bytes depth, normals, colors, material;
 };
 
-template <class T>
-void append(Bytes& bytes, const T& value) {
-  const auto* begin = reinterpret_cast<const std::uint8_t*>(&value);
-  bytes.insert(bytes.end(), begin, begin + sizeof(value));
-}
-
-std::uint32_t unorm(double value, int bits) {
-  return static_cast<std::uint32_t>(std::lround(std::clamp(value, 0.0, 1.0) * ((1 << bits) - 1)));
-}
-
 Drawn draw_boxes() {
-  const gloam::ViewSettings view = camera();
-  const double half_height = std::tan(0.5 * static_cast<double>(view.camera.fov_y));
-  const double half_width = half_height * kWidth / kHeight;
-  const gloam::dvec3 origin(view.world_from_camera[3]);
   Drawn drawn;
-  for (std::uint32_t y = 0; y < kHeight; ++y)
-    for (std::uint32_t x = 0; x < kWidth; ++x) {
-      // The view depth along this direction is the distance itself.
-      const gloam::dvec3 direction(half_width * (2.0 * (x + 0.5) / kWidth - 1.0),
-                                   half_height * (1.0 - 2.0 * (y + 0.5) / kHeight), -1.0);
-      const Hit hit = trace(origin, direction);
-      const bool sky = hit.box == nullptr;
-      append(drawn.depth,
-             sky ? 1.0f : static_cast<float>(kFar * (hit.distance - kNear) / (hit.distance * (kFar - kNear))));
-      std::uint32_t normal = 0, color = 0;
-      for (int i = 0; i < 3; ++i) {
-        normal |= unorm(0.5 + 0.5 * hit.normal[i], 10) << (10 * i);
-        color |= sky ? 0u : unorm(gloam::linear_to_srgb(static_cast<double>(hit.box->color[i])), 8) << (8 * i);
-      }
-      append(drawn.normals, normal);
-      append(drawn.colors, color);
-      append(drawn.material, 255u | unorm(static_cast<double>(host::kLittleRoughness), 8) << 8);
+  for_each_pixel(kWidth, kHeight, camera(), [&](const Hit& hit) {
+    const bool sky = hit.box == nullptr;
+    append(drawn.depth,
+           sky ? 1.0f : static_cast<float>(kFar * (hit.distance - kNear) / (hit.distance * (kFar - kNear))));
+    std::uint32_t normal = 0, color = 0;
+    for (int i = 0; i < 3; ++i) {
+      normal |= unorm(0.5 + 0.5 * hit.normal[i], 10) << (10 * i);
+      color |= sky ? 0u : unorm(gloam::linear_to_srgb(static_cast<double>(hit.box->color[i])), 8) << (8 * i);
     }
+    append(drawn.normals, normal);
+    append(drawn.colors, color);
+    append(drawn.material, 255u | unorm(static_cast<double>(host::kLittleRoughness), 8) << 8);
+  });
   return drawn;
 }
 
@@ -235,28 +189,6 @@ class Stage {
   Shared picture_;
   std::vector<Shared> images_;
 };
-
-/// Mean difference of a channel, and the share of pixels with a difference above 8 of 255.
-struct Difference {
-  double mean = 0.0;
-  double share = 0.0;
-};
-
-Difference difference(const Bytes& a, const Bytes& b) {
-  Difference d;
-  for (std::size_t i = 0; i < a.size(); i += 4) {
-    int most = 0;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const int step = std::abs(int{a[i + c]} - int{b[i + c]});
-      d.mean += step;
-      most = std::max(most, step);
-    }
-    d.share += most > 8 ? 1.0 : 0.0;
-  }
-  d.mean /= 0.75 * static_cast<double>(a.size());
-  d.share /= 0.25 * static_cast<double>(a.size());
-  return d;
-}
 
 }  // namespace
 
