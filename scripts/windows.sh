@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: The gloam authors
 # SPDX-License-Identifier: MIT
-# Builds the components that need no GPU for Windows with mingw-w64, and runs their tests under wine.
+# Builds the components that need no GPU, gpu and frame for Windows with mingw-w64, and runs their tests under wine.
 # usage: scripts/windows.sh [options of ctest]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

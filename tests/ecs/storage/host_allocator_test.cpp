@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 #include <map>
 #include <new>
@@ -23,7 +22,7 @@ class CountingAllocator final : public CpuAllocator {
  public:
   void* allocate(std::size_t bytes, std::size_t alignment) override {
     if (live_bytes() + bytes > budget) return nullptr;
-    void* memory = std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
+    void* memory = ::operator new(bytes, std::align_val_t(alignment));
     std::memset(memory, 0xA5, bytes);
     live[memory] = {bytes, alignment};
     return memory;
@@ -32,7 +31,7 @@ class CountingAllocator final : public CpuAllocator {
     const auto found = live.find(memory);
     EXPECT_TRUE(found != live.end() && found->second == std::pair(bytes, alignment));
     if (found != live.end()) live.erase(found);
-    std::free(memory);
+    ::operator delete(memory, std::align_val_t(alignment));
   }
   [[nodiscard]] std::size_t live_bytes() const {
     std::size_t sum = 0;
