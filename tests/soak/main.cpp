@@ -1,0 +1,202 @@
+// SPDX-FileCopyrightText: The gloam authors
+// SPDX-License-Identifier: MIT
+//
+// Draws frames while a random schedule changes everything that a host may change, and measures live bytes at the end of
+// each cycle, in the base state. Writes them to FOLDER/memory.csv and the pictures of the checkpoints to
+// FOLDER/state_N.ppm. With --state it brings itself to state N without the steps before it, and writes that picture:
+// both must be equal.
+// usage: gloam_soak FOLDER [--frames N] [--seed N] [--checkpoints N] [--state N] [--brief] [--validate]
+#include <malloc.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tests/soak/host.h"
+#include "tests/soak/plan.h"
+
+namespace gloam::soak {
+namespace {
+
+constexpr int kSkipped = 77;
+/// After this many frames live bytes may no longer grow by more than a hundredth.
+constexpr std::uint64_t kFramesBeforeFlat = 500;
+/// The same for brief cycles, which are fewer.
+constexpr std::uint64_t kBriefFramesBeforeFlat = 80;
+
+struct Arguments {
+  std::string folder;
+  std::uint64_t frames = 20000;
+  std::uint32_t seed = 1;
+  std::uint64_t checkpoints = 10;
+  std::optional<std::uint64_t> state;
+  bool brief = false;
+  bool validate = false;
+};
+
+Arguments parse(int count, char** words) {
+  Arguments arguments;
+  for (int i = 1; i < count; ++i) {
+    const std::string word = words[i];
+    const auto number = [&] { return i + 1 < count ? std::strtoull(words[++i], nullptr, 10) : 0; };
+    if (word == "--frames") {
+      arguments.frames = number();
+    } else if (word == "--seed") {
+      arguments.seed = static_cast<std::uint32_t>(number());
+    } else if (word == "--checkpoints") {
+      arguments.checkpoints = number();
+    } else if (word == "--state") {
+      arguments.state = number();
+    } else if (word == "--brief") {
+      arguments.brief = true;
+    } else if (word == "--validate") {
+      arguments.validate = true;
+    } else {
+      arguments.folder = word;
+    }
+  }
+  return arguments;
+}
+
+/// Bytes of physical memory of this process.
+std::int64_t resident_bytes() {
+  std::ifstream file("/proc/self/statm");
+  std::int64_t total = 0, resident = 0;
+  file >> total >> resident;
+  return resident * 4096;
+}
+
+void write(const std::string& path, const std::vector<std::uint8_t>& bytes) {
+  std::ofstream(path, std::ios::binary)
+      .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+}
+
+/// Judges the live bytes at the ends of cycles.
+class Flatness {
+ public:
+  /// Returns whether nothing has grown.
+  bool holds(std::uint64_t frames, std::uint64_t frames_before, const LiveBytes& now) {
+    const bool is_first = frames <= frames_before || !has_base_;
+    if (is_first) base_ = {std::max(base_.heap, now.heap), std::max(base_.driver_heap, now.driver_heap),
+                           std::max(base_.device, now.device)};
+    has_base_ = true;
+    return is_flat("operator new", base_.heap, now.heap, frames) &
+           is_flat("VkAllocationCallbacks", base_.driver_heap, now.driver_heap, frames) &
+           is_flat("vkAllocateMemory", base_.device, now.device, frames);
+  }
+
+ private:
+  static bool is_flat(const char* what, std::int64_t base, std::int64_t now, std::uint64_t frames) {
+    if (now <= base + base / 100) return true;
+    std::fprintf(stderr, "soak: live bytes of %s grew from %lld to %lld after %llu frames\n", what,
+                 static_cast<long long>(base), static_cast<long long>(now), static_cast<unsigned long long>(frames));
+    return false;
+  }
+  LiveBytes base_;
+  bool has_base_ = false;
+};
+
+class Run {
+ public:
+  Run(const Arguments& arguments, Host& host)
+      : arguments_(arguments),
+        host_(host),
+        csv_(std::fopen((arguments.folder + "/memory.csv").c_str(), "w")) {
+    std::fprintf(csv_, "frames,heap,driver_heap,device,malloc,resident\n");
+  }
+  ~Run() { std::fclose(csv_); }
+  Run(const Run&) = delete;
+  Run& operator=(const Run&) = delete;
+
+  bool run() {
+    const Plan plan(arguments_.seed, arguments_.brief);
+    const std::uint64_t cycles = std::max<std::uint64_t>(1, arguments_.frames / plan.frames_of_a_cycle());
+    std::uint64_t step_number = 0;
+    for (std::uint64_t cycle = 0; cycle < cycles; ++cycle) {
+      const std::vector<Step> steps = plan.cycle(static_cast<std::uint32_t>(cycle));
+      const std::uint64_t all = steps.size() * cycles;
+      for (const Step& step : steps) {
+        host_.show(step.state);
+        host_.draw(step);
+        if (is_checkpoint(step_number, all)) check_point(step_number, step);
+        ++step_number;
+      }
+      host_.reload();
+      host_.settle();
+      measure(plan.frames_of_a_cycle() * (cycle + 1));
+    }
+    if (host_.validation_messages() > 0) {
+      std::fprintf(stderr, "soak: %llu validation messages\n",
+                   static_cast<unsigned long long>(host_.validation_messages()));
+      good_ = false;
+    }
+    return good_;
+  }
+
+ private:
+  /// Checkpoints lie in the middle of equal shares of all steps.
+  [[nodiscard]] bool is_checkpoint(std::uint64_t step, std::uint64_t all) const {
+    const auto before = [&](std::uint64_t place) { return (2 * place * arguments_.checkpoints + all) / (2 * all); };
+    return before(step + 1) > before(step);
+  }
+  void check_point(std::uint64_t number, const Step& step) {
+    host_.settle();
+    write(arguments_.folder + "/state_" + std::to_string(number) + ".ppm", host_.pictures());
+    std::printf("checkpoint %llu: %s in %s\n", static_cast<unsigned long long>(number), step.change.c_str(),
+                step.state.scene.c_str());
+    std::fflush(stdout);
+  }
+  void measure(std::uint64_t frames) {
+    const LiveBytes now = host_.live_bytes();
+    const struct mallinfo2 used = mallinfo2();
+    std::fprintf(csv_, "%llu,%lld,%lld,%lld,%zu,%lld\n", static_cast<unsigned long long>(frames),
+                 static_cast<long long>(now.heap), static_cast<long long>(now.driver_heap),
+                 static_cast<long long>(now.device), used.uordblks + used.hblkhd, static_cast<long long>(resident_bytes()));
+    std::fflush(csv_);
+    good_ = flatness_.holds(frames, arguments_.brief ? kBriefFramesBeforeFlat : kFramesBeforeFlat, now) && good_;
+  }
+
+  const Arguments& arguments_;
+  Host& host_;
+  std::FILE* csv_;
+  Flatness flatness_;
+  bool good_ = true;
+};
+
+void draw_state(const Arguments& arguments, Host& host) {
+  const Plan plan(arguments.seed, arguments.brief);
+  const std::size_t steps = plan.cycle(0).size();
+  const Step step = plan.cycle(static_cast<std::uint32_t>(*arguments.state / steps))[*arguments.state % steps];
+  host.show(step.state);
+  host.settle();
+  write(arguments.folder + "/fresh_" + std::to_string(*arguments.state) + ".ppm", host.pictures());
+}
+
+int run(const Arguments& arguments) {
+  Host host(arguments.validate);
+  if (!host.has_device()) return kSkipped;
+  if (arguments.state) {
+    draw_state(arguments, host);
+    return host.validation_messages() == 0 ? 0 : 1;
+  }
+  return Run(arguments, host).run() ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace gloam::soak
+
+int main(int count, char** words) {
+  try {
+    return gloam::soak::run(gloam::soak::parse(count, words));
+  } catch (const std::exception& fault) {
+    std::fprintf(stderr, "soak: %s\n", fault.what());
+    return 1;
+  }
+}
