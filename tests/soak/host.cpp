@@ -71,8 +71,8 @@ void Host::load_scene(const std::string& scene) {
   unload_scene();
   world_ = std::make_unique<World>();
   renderer_->prepare_world(*world_);
-  const SceneInfo info = value_of(gloam::load_scene({.scene = "builtin:" + scene}, renderer_->modules(), *world_,
-                                                    *executor_, test::gpu_log()));
+  const SceneInfo info = value_of(
+      gloam::load_scene({.scene = "builtin:" + scene}, renderer_->modules(), *world_, *executor_, test::gpu_log()));
   world_->resource<SceneEnvironment>().has_exposure = true;  // else each camera's first frame meters it
   Schedule posing;
   add_scene_systems(posing);
@@ -102,7 +102,8 @@ void Host::add_mesh(std::uint32_t number) {
   auto& assets = world_->resource<SceneAssets>();
   Image image{"streamed", 16u << (number % 4), 64, {}};
   for (std::uint32_t i = 0; i < 4 * image.width * image.height; ++i)
-    image.rgba.push_back(i % 4 == 3 ? std::uint8_t{255} : static_cast<std::uint8_t>(255.0 * share(number, i / 64 + i % 4)));
+    image.rgba.push_back(i % 4 == 3 ? std::uint8_t{255}
+                                    : static_cast<std::uint8_t>(255.0 * share(number, i / 64 + i % 4)));
   Streamed made;
   made.image = assets.add(std::move(image));
   made.texture = assets.add(Texture{.name = "streamed", .image = made.image, .srgb = true});

@@ -13,8 +13,8 @@
 #include "engine/gpu/vulkan/startup/features.h"
 #include "engine/jobs/executor.h"
 #include "engine/render/renderer.h"
-#include "tests/soak/plan.h"
 #include "tests/soak/own_blocks.h"
+#include "tests/soak/plan.h"
 #include "tests/support/counted_memory.h"
 
 namespace gloam::soak {

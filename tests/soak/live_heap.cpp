@@ -16,9 +16,10 @@ std::atomic<std::int64_t> live = 0;
 
 void* take(std::size_t size, std::size_t alignment) {
   // aligned_alloc wants a multiple of the alignment.
-  void* made = alignment <= alignof(std::max_align_t)
-                   ? std::malloc(std::max<std::size_t>(size, 1))
-                   : std::aligned_alloc(alignment, (std::max<std::size_t>(size, 1) + alignment - 1) / alignment * alignment);
+  void* made =
+      alignment <= alignof(std::max_align_t)
+          ? std::malloc(std::max<std::size_t>(size, 1))
+          : std::aligned_alloc(alignment, (std::max<std::size_t>(size, 1) + alignment - 1) / alignment * alignment);
   if (made != nullptr) live.fetch_add(static_cast<std::int64_t>(malloc_usable_size(made)), std::memory_order_relaxed);
   return made;
 }

@@ -84,8 +84,9 @@ class Flatness {
   /// Returns whether nothing has grown.
   bool holds(std::uint64_t frames, std::uint64_t frames_before, const LiveBytes& now) {
     const bool is_first = frames <= frames_before || !has_base_;
-    if (is_first) base_ = {std::max(base_.heap, now.heap), std::max(base_.driver_heap, now.driver_heap),
-                           std::max(base_.device, now.device)};
+    if (is_first)
+      base_ = {std::max(base_.heap, now.heap), std::max(base_.driver_heap, now.driver_heap),
+               std::max(base_.device, now.device)};
     has_base_ = true;
     return is_flat("operator new", base_.heap, now.heap, frames) &
            is_flat("VkAllocationCallbacks", base_.driver_heap, now.driver_heap, frames) &
@@ -106,9 +107,7 @@ class Flatness {
 class Run {
  public:
   Run(const Arguments& arguments, Host& host)
-      : arguments_(arguments),
-        host_(host),
-        csv_(std::fopen((arguments.folder + "/memory.csv").c_str(), "w")) {
+      : arguments_(arguments), host_(host), csv_(std::fopen((arguments.folder + "/memory.csv").c_str(), "w")) {
     std::fprintf(csv_, "frames,heap,driver_heap,device,malloc,resident\n");
   }
   ~Run() { std::fclose(csv_); }
@@ -158,7 +157,8 @@ class Run {
     const struct mallinfo2 used = mallinfo2();
     std::fprintf(csv_, "%llu,%lld,%lld,%lld,%zu,%lld\n", static_cast<unsigned long long>(frames),
                  static_cast<long long>(now.heap), static_cast<long long>(now.driver_heap),
-                 static_cast<long long>(now.device), used.uordblks + used.hblkhd, static_cast<long long>(resident_bytes()));
+                 static_cast<long long>(now.device), used.uordblks + used.hblkhd,
+                 static_cast<long long>(resident_bytes()));
     std::fflush(csv_);
     good_ = flatness_.holds(frames, arguments_.brief ? kBriefFramesBeforeFlat : kFramesBeforeFlat, now) && good_;
   }

@@ -34,7 +34,8 @@ class OwnBlocks final : public gpu::HostMemoryAllocator {
                                        .allocationSize = request.requirements.size,
                                        .memoryTypeIndex = type};
     VkResult result = allocate_(device_, &info, nullptr, &memory.memory);
-    if (result == VK_SUCCESS && request.mapped) result = map_(device_, memory.memory, 0, VK_WHOLE_SIZE, 0, &memory.mapped);
+    if (result == VK_SUCCESS && request.mapped)
+      result = map_(device_, memory.memory, 0, VK_WHOLE_SIZE, 0, &memory.mapped);
     return result;
   }
   void free(const gpu::HostMemory& memory) override { free_(device_, memory.memory, nullptr); }

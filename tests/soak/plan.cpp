@@ -13,8 +13,9 @@ namespace {
 
 using Knobs = std::map<std::string, std::string>;
 
-const std::vector<std::string> kScenes = {"plain",    "lens",   "smoke",       "lanterns",   "many_lights", "penumbra",  "shadows",
-                                          "closeups", "meadow", "shadow_grid", "wet_street", "meadow_day",  "backlight"};
+const std::vector<std::string> kScenes = {"plain",      "lens",       "smoke",    "lanterns", "many_lights",
+                                          "penumbra",   "shadows",    "closeups", "meadow",   "shadow_grid",
+                                          "wet_street", "meadow_day", "backlight"};
 const std::vector<std::string> kBriefScenes = {"plain", "smoke"};
 
 const std::vector<Knobs> kSettings = {
@@ -33,20 +34,35 @@ const std::vector<Knobs> kBriefSettings = {
     {{"scene.reuse", "off"}, {"lighting.reuse", "off"}},
     {{"grass.density_scale", "0.3"}, {"shadows.atlas", "1024"}},
 };
-const std::vector<std::vector<std::string>> kWithout = {{"fog"}, {"grass"}, {"particles", "glare"}, {"shadows"}, {"reflections"}};
+const std::vector<std::vector<std::string>> kWithout = {
+    {"fog"}, {"grass"}, {"particles", "glare"}, {"shadows"}, {"reflections"}};
 const std::vector<std::vector<std::string>> kBriefWithout = {{"fog"}, {"grass"}};
-constexpr std::array<std::pair<std::uint32_t, std::uint32_t>, 5> kSizes = {{{96, 54}, {64, 36}, {33, 71}, {128, 72}, {160, 90}}};
+constexpr std::array<std::pair<std::uint32_t, std::uint32_t>, 5> kSizes = {
+    {{96, 54}, {64, 36}, {33, 71}, {128, 72}, {160, 90}}};
 
-enum class Kind { scene, base_scene, knobs, modules, size, mesh_comes, mesh_goes, lamp_comes, lamp_goes, camera, second_view, budget };
+enum class Kind {
+  scene,
+  base_scene,
+  knobs,
+  modules,
+  size,
+  mesh_comes,
+  mesh_goes,
+  lamp_comes,
+  lamp_goes,
+  camera,
+  second_view,
+  budget
+};
 
 /// How often each change happens in a cycle.
 struct Share {
   Kind kind;
   std::uint32_t long_count, brief_count;
 };
-constexpr Share kShares[] = {{Kind::base_scene, 4, 1}, {Kind::size, 6, 2},       {Kind::mesh_comes, 8, 2}, {Kind::mesh_goes, 6, 1},
-                             {Kind::lamp_comes, 8, 2}, {Kind::lamp_goes, 6, 1},  {Kind::camera, 6, 1},     {Kind::second_view, 5, 1},
-                             {Kind::budget, 3, 1}};
+constexpr Share kShares[] = {{Kind::base_scene, 4, 1}, {Kind::size, 6, 2},        {Kind::mesh_comes, 8, 2},
+                             {Kind::mesh_goes, 6, 1},  {Kind::lamp_comes, 8, 2},  {Kind::lamp_goes, 6, 1},
+                             {Kind::camera, 6, 1},     {Kind::second_view, 5, 1}, {Kind::budget, 3, 1}};
 
 class Dice {
  public:

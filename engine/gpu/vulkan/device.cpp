@@ -86,7 +86,7 @@ VulkanDevice::~VulkanDevice() {
     context_->vk.vkDeviceWaitIdle(context_->device);
   } else if (frames_) {
     // Only gloam's own work must have finished; the host may be using this queue or others at the same time.
-    static_cast<void>(frames_->wait_idle());
+    frames_->wait_at_end();
   }
   graveyard_.collect_all();
 }
@@ -104,7 +104,11 @@ Status VulkanDevice::submit_frame() {
                "native commands are ended before the frame is submitted");
   GLOAM_ASSERT(!frames_->recording() || !commands_->rendering(), "rendering is ended before the frame is submitted");
   const std::optional<Error>& fault = commands_->fault();
-  if (!fault) return frames_->submit();
+  if (!fault) {
+    Status submitted = frames_->submit();
+    if (!submitted.ok()) commands_->forget_barriers();
+    return submitted;
+  }
   GLOAM_TRY(abandon_frame());
   return *fault;
 }

@@ -82,7 +82,7 @@ void ComputePass::use(const ComputeProgram& program) {
 }
 
 void ComputePass::dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
-  if (!has_program()) return;
+  if (!has_program() || recording().failed) return;
   Step& step = add_step(StepKind::dispatch);
   step.counts[0] = x;
   step.counts[1] = y;
@@ -105,7 +105,7 @@ void ComputePass::dispatch_over(std::uint32_t x, std::uint32_t y, std::uint32_t 
 }
 
 void ComputePass::dispatch_indirect(BufferRef arguments, std::uint64_t offset) {
-  if (!has_program()) return;
+  if (!has_program() || recording().failed) return;
   graph_pass().read(arguments, gpu::Access::indirect_read);
   Step& step = add_step(StepKind::dispatch_indirect);
   step.arguments = arguments;

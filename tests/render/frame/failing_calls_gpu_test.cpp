@@ -154,7 +154,8 @@ TEST_F(FailingCalls, give_an_error_leave_nothing_behind_and_the_next_frames_are_
       failing.begin(call, result);
       const Life life = live();
       failed += failing.has_failed() ? 1 : 0;
-      if (getenv("SHOW")) for (auto& e : life.errors) fprintf(stderr, "    %s\n", e.message.c_str());
+      if (getenv("SHOW"))
+        for (auto& e : life.errors) fprintf(stderr, "    %s\n", e.message.c_str());
       if (getenv("SHOW")) fprintf(stderr, "    picture %zu\n", life.picture.rgba.size());
       check(life, undisturbed.picture, result);
       expect_nothing_is_left(watch);

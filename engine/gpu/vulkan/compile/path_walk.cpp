@@ -15,6 +15,7 @@
 
 #include "engine/gpu/spirv/many_selections.h"
 #include "engine/gpu/spirv/split_selections.h"
+#include "engine/gpu/vulkan/errors.h"
 
 namespace gloam::gpu::vulkan {
 namespace {
@@ -37,13 +38,15 @@ class ProbeLayout {
                                                  .stageFlags = VK_SHADER_STAGE_COMPUTE_BIT};
     const VkDescriptorSetLayoutCreateInfo set = {
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, .bindingCount = 1, .pBindings = &buffer};
-    if (context.vk.vkCreateDescriptorSetLayout(context.device, &set, context.allocation, &set_) != VK_SUCCESS) return;
+    if (null_on_failure(context.vk.vkCreateDescriptorSetLayout(context.device, &set, context.allocation, &set_),
+                        set_) != VK_SUCCESS)
+      return;
     const VkPipelineLayoutCreateInfo layout = {
         .sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO, .setLayoutCount = 1, .pSetLayouts = &set_};
-    if (context.vk.vkCreatePipelineLayout(context.device, &layout, context.allocation, &layout_) != VK_SUCCESS)
-      layout_ = VK_NULL_HANDLE;
+    const VkResult result = null_on_failure(
+        context.vk.vkCreatePipelineLayout(context.device, &layout, context.allocation, &layout_), layout_);
     context.set_name(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, set_, kName);
-    if (layout_ != VK_NULL_HANDLE) context.set_name(VK_OBJECT_TYPE_PIPELINE_LAYOUT, layout_, kName);
+    if (result == VK_SUCCESS) context.set_name(VK_OBJECT_TYPE_PIPELINE_LAYOUT, layout_, kName);
   }
   ~ProbeLayout() {
     context_.vk.vkDestroyPipelineLayout(context_.device, layout_, context_.allocation);

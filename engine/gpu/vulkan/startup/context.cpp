@@ -30,7 +30,8 @@ Result<std::unique_ptr<Context>> Context::create(const Instance& instance, const
                                    .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
                                    .ppEnabledExtensionNames = extensions.data()};
   const InstanceFunctions& f = instance.functions();
-  const VkResult result = f.vkCreateDevice(physical.handle, &info, nullptr, &context->device);
+  const VkResult result =
+      null_on_failure(f.vkCreateDevice(physical.handle, &info, nullptr, &context->device), context->device);
   if (result != VK_SUCCESS) return failure("The device " + physical.info.name + " could not be opened", result);
   GLOAM_TRY(context->load_functions());
   context->vk.vkGetDeviceQueue(context->device, physical.queue_family, 0, &context->queue);

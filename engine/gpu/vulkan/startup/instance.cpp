@@ -102,7 +102,7 @@ Status Instance::make(const VulkanOptions& options) {
                                      .ppEnabledLayerNames = layers.data(),
                                      .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
                                      .ppEnabledExtensionNames = extensions.data()};
-  const VkResult result = global->vkCreateInstance(&info, nullptr, &instance_);
+  const VkResult result = null_on_failure(global->vkCreateInstance(&info, nullptr, &instance_), instance_);
   if (result == VK_ERROR_INCOMPATIBLE_DRIVER) {
     return Error{ErrorKind::no_device, "No Vulkan driver is installed on this machine"};
   }
@@ -119,7 +119,8 @@ Status Instance::make_messenger() {
       .messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_GENERAL_BIT_EXT,
       .pfnUserCallback = &Instance::on_message,
       .pUserData = this};
-  const VkResult result = functions_.vkCreateDebugUtilsMessengerEXT(instance_, &info, nullptr, &messenger_);
+  const VkResult result =
+      null_on_failure(functions_.vkCreateDebugUtilsMessengerEXT(instance_, &info, nullptr, &messenger_), messenger_);
   if (result != VK_SUCCESS) return failure("Validation messages could not be subscribed to", result);
   return {};
 }

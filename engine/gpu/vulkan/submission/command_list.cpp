@@ -43,6 +43,7 @@ void VulkanCommandList::start(VkCommandBuffer commands) {
   pipeline_ = {};
   bound_.start();
   fault_.reset();
+  has_begun_rendering_ = false;
   earlier_accesses_.clear();
 }
 

@@ -108,7 +108,9 @@ class VulkanCommandList final : public CommandList {
   BoundState bound_;
   VkViewport viewport_ = {};  ///< as set last, like scissor_
   VkRect2D scissor_ = {};
+  /// After it, no draws and dispatches are recorded: what they need may be missing, and the frame is dropped.
   std::optional<Error> fault_;
+  bool has_begun_rendering_ = false;  ///< false between begin_rendering and end_rendering if the former has failed
   /// Image::access before each image barrier of the frame, in order.
   std::vector<std::pair<ImageHandle, Subresources<Access>>> earlier_accesses_;
   std::vector<VkBufferMemoryBarrier2> buffer_barriers_;

@@ -62,6 +62,7 @@ void VulkanCommandList::begin_rendering(const RenderingDesc& desc) {
                                 .pColorAttachments = colors.data(),
                                 .pDepthAttachment = depth ? &*depth : nullptr};
   context_.vk.vkCmdBeginRendering(commands_, &info);
+  has_begun_rendering_ = true;
   set_viewport(static_cast<float>(desc.x), static_cast<float>(desc.y), static_cast<float>(desc.width),
                static_cast<float>(desc.height));
   set_scissor(corner.x, corner.y, desc.width, desc.height);
@@ -69,7 +70,8 @@ void VulkanCommandList::begin_rendering(const RenderingDesc& desc) {
 
 void VulkanCommandList::end_rendering() {
   bound_.end_rendering();
-  context_.vk.vkCmdEndRendering(commands_);
+  if (has_begun_rendering_) context_.vk.vkCmdEndRendering(commands_);
+  has_begun_rendering_ = false;
 }
 
 void VulkanCommandList::set_viewport(float x, float y, float width, float height) {
@@ -103,6 +105,7 @@ void VulkanCommandList::bind_pipeline(PipelineHandle handle) {
 
 void VulkanCommandList::bind(std::span<const Binding> bindings) {
   const Pipeline& pipeline = bound_pipeline();
+  bound_.bind_set(0);  // also if it fails: the frame's draws and dispatches are then not recorded
   VkDescriptorSet set = VK_NULL_HANDLE;
   if (!pipeline.layout->pushes_set_0 && !pipeline.shader.of_set(0).empty()) {
     const Result<VkDescriptorSet> allocated = frame_sets_.allocate(pipeline.layout->sets[0], pipeline.shader.of_set(0));
@@ -111,7 +114,6 @@ void VulkanCommandList::bind(std::span<const Binding> bindings) {
   }
   const auto writes = writer_.build(pipeline, 0, bindings, set, DescriptorWriter::Layouts::as_recorded);
   if (!writes) return fail(writes.error());
-  bound_.bind_set(0);
   if (writes->empty()) return;
   if (set != VK_NULL_HANDLE) {
     context_.vk.vkUpdateDescriptorSets(context_.device, static_cast<std::uint32_t>(writes->size()), writes->data(), 0,
@@ -162,24 +164,28 @@ void VulkanCommandList::bind_indices(BufferHandle buffer, std::uint64_t offset) 
 void VulkanCommandList::draw(std::uint32_t vertices, std::uint32_t instances, std::uint32_t first_vertex,
                              std::uint32_t first_instance) {
   bound_.check_draw(pipelines_, pipeline_, false);
+  if (fault_) return;
   context_.vk.vkCmdDraw(commands_, vertices, instances, first_vertex, first_instance);
 }
 
 void VulkanCommandList::draw_indexed(std::uint32_t indices, std::uint32_t instances, std::uint32_t first_index,
                                      std::int32_t vertex_offset, std::uint32_t first_instance) {
   bound_.check_draw(pipelines_, pipeline_, true);
+  if (fault_) return;
   context_.vk.vkCmdDrawIndexed(commands_, indices, instances, first_index, vertex_offset, first_instance);
 }
 
 void VulkanCommandList::draw_indirect(BufferHandle buffer, std::uint64_t offset) {
   bound_.check_draw(pipelines_, pipeline_, false);
   check_range(buffer, offset, sizeof(VkDrawIndirectCommand));
+  if (fault_) return;
   context_.vk.vkCmdDrawIndirect(commands_, buffers_.get(buffer).buffer, offset, 1, 0);
 }
 
 void VulkanCommandList::draw_indexed_indirect(BufferHandle buffer, std::uint64_t offset, std::uint32_t draw_count) {
   bound_.check_draw(pipelines_, pipeline_, true);
   check_range(buffer, offset, std::uint64_t{draw_count} * kIndirectDrawBytes);
+  if (fault_) return;
   const PhysicalDevice& device = context_.physical;
   const bool many = device.features.core.features.multiDrawIndirect == VK_TRUE;
   const std::uint32_t most = many ? device.limits.maxDrawIndirectCount : 1;
@@ -193,12 +199,14 @@ void VulkanCommandList::draw_indexed_indirect(BufferHandle buffer, std::uint64_t
 
 void VulkanCommandList::dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
   bound_.check_dispatch(pipelines_, pipeline_);
+  if (fault_) return;
   context_.vk.vkCmdDispatch(commands_, x, y, z);
 }
 
 void VulkanCommandList::dispatch_indirect(BufferHandle buffer, std::uint64_t offset) {
   bound_.check_dispatch(pipelines_, pipeline_);
   check_range(buffer, offset, sizeof(VkDispatchIndirectCommand));
+  if (fault_) return;
   context_.vk.vkCmdDispatchIndirect(commands_, buffers_.get(buffer).buffer, offset);
 }
 
@@ -206,12 +214,12 @@ void* VulkanCommandList::begin_native(std::optional<std::uint64_t>) {
   GLOAM_ASSERT(frames_.recording(), "native commands are recorded between begin_frame and submit_frame");
   bound_.begin_native();
   pipeline_ = {};
-  return commands_;
+  return fault_ ? VK_NULL_HANDLE : commands_;
 }
 
 void VulkanCommandList::end_native() {
   bound_.end_native();
-  if (!bound_.rendering()) return;  // begin_rendering sets both
+  if (!has_begun_rendering_) return;  // begin_rendering sets both
   context_.vk.vkCmdSetViewport(commands_, 0, 1, &viewport_);
   context_.vk.vkCmdSetScissor(commands_, 0, 1, &scissor_);
 }

@@ -29,7 +29,8 @@ Status Frames::make() {
   const VkSemaphoreTypeCreateInfo type = {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO,
                                           .semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE};
   const VkSemaphoreCreateInfo info = {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, .pNext = &type};
-  const VkResult result = context_.vk.vkCreateSemaphore(context_.device, &info, context_.allocation, &timeline_);
+  const VkResult result = null_on_failure(
+      context_.vk.vkCreateSemaphore(context_.device, &info, context_.allocation, &timeline_), timeline_);
   if (result != VK_SUCCESS) return failure("The frame timeline could not be made", result);
   context_.set_name(VK_OBJECT_TYPE_SEMAPHORE, timeline_, "frames");
   for (std::uint32_t i = 0; i < slots_.size(); ++i) GLOAM_TRY(make_slot(slots_[i], i));
@@ -41,7 +42,8 @@ Status Frames::make_slot(Slot& slot, std::uint32_t index) {
   const VkCommandPoolCreateInfo pool = {.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
                                         .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
                                         .queueFamilyIndex = context_.physical.queue_family};
-  VkResult result = vk.vkCreateCommandPool(context_.device, &pool, context_.allocation, &slot.pool);
+  VkResult result =
+      null_on_failure(vk.vkCreateCommandPool(context_.device, &pool, context_.allocation, &slot.pool), slot.pool);
   if (result != VK_SUCCESS) return failure("A command pool could not be made", result);
   const VkCommandBufferAllocateInfo commands = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
                                                 .commandPool = slot.pool,
@@ -52,7 +54,8 @@ Status Frames::make_slot(Slot& slot, std::uint32_t index) {
   const VkQueryPoolCreateInfo queries = {.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
                                          .queryType = VK_QUERY_TYPE_TIMESTAMP,
                                          .queryCount = Device::kTimestampsPerFrame};
-  result = vk.vkCreateQueryPool(context_.device, &queries, context_.allocation, &slot.queries);
+  result = null_on_failure(vk.vkCreateQueryPool(context_.device, &queries, context_.allocation, &slot.queries),
+                           slot.queries);
   if (result != VK_SUCCESS) return failure("A timestamp pool could not be made", result);
   const std::string name = "frame slot " + std::to_string(index);
   context_.set_name(VK_OBJECT_TYPE_COMMAND_POOL, slot.pool, name);
@@ -76,7 +79,7 @@ Status Frames::wait_for_frames(std::uint64_t completed) {
                                     .pValues = &completed};
   const VkResult result = context_.vk.vkWaitSemaphores(context_.device, &wait, UINT64_MAX);
   if (result == VK_SUCCESS) return {};
-  lost_ = true;
+  if (result == VK_ERROR_DEVICE_LOST) lost_ = true;
   return failure("Waiting for frame " + std::to_string(completed - 1), result);
 }
 
@@ -157,8 +160,8 @@ Status Frames::submit(bool discard) {
   waits_.clear();
   signals_.clear();
   if (result != VK_SUCCESS) {
-    // The timeline will never reach this frame, so nothing may wait for it.
-    lost_ = true;
+    // The timeline does not reach this frame: the next one has its number.
+    if (result == VK_ERROR_DEVICE_LOST) lost_ = true;
     return failure("Submitting frame " + std::to_string(number()), result);
   }
   const std::lock_guard lock(timestamps_mutex_);
@@ -198,6 +201,12 @@ Status Frames::wait_idle() {
   if (number() > 0) GLOAM_TRY(wait_for_frames(number()));
   settle();
   return {};
+}
+
+void Frames::wait_at_end() {
+  constexpr int kAttempts = 10;
+  for (int i = 0; i < kAttempts && !lost_ && !wait_idle().ok(); ++i) {
+  }
 }
 
 Status Frames::wait_frame(std::uint64_t frame) {

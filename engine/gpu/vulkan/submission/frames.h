@@ -44,6 +44,9 @@ class Frames {
   [[nodiscard]] std::uint64_t number() const { return number_.load(); }
   [[nodiscard]] std::uint64_t completed() const;
   [[nodiscard]] Status wait_idle();
+  /// Before the objects of frames are destroyed. Tries again after an error, which does not tell that the GPU has
+  /// finished, unless the device is lost.
+  void wait_at_end();
   /// Waits for a submitted frame.
   [[nodiscard]] Status wait_frame(std::uint64_t frame);
 
