@@ -177,13 +177,7 @@ void Host::show(const State& state) {
   set_knobs();
 }
 
-void Host::reload() {
-  const State state = state_;
-  unload_scene();
-  show(state);
-}
-
-void Host::draw_frame(double turn, bool cut, bool moves) {
+void Host::draw_frame(double turn, bool cut) {
   world_->resource<SceneClock>() = {.time_s = time_s_, .dt_s = kFrameS};
   std::vector<ViewRequest> requests;
   for (std::uint32_t v = 0; v < state_.views.size(); ++v) {
@@ -200,7 +194,7 @@ void Host::draw_frame(double turn, bool cut, bool moves) {
         glm::rotate(request.settings.world_from_camera, view.turn + turn, dvec3(0.0, 1.0, 0.0));
   }
   check(renderer_->render(*world_, requests));
-  if (moves) time_s_ += kFrameS;
+  time_s_ += kFrameS;
   ++frames_;
 }
 
@@ -219,12 +213,17 @@ void Host::draw(const Step& step) {
   set_knobs();
 }
 
-void Host::settle() {
+void Host::complete() {
   for (int at_rest = 0; at_rest < 2;) {
     draw_frame(0.0, false);
     const FrameReport report = renderer_->report();
     at_rest = report.assets_pending + report.pipelines_pending == 0 ? at_rest + 1 : 0;
   }
+}
+
+void Host::settle() {
+  complete();
+  for (std::uint32_t v = 0; v < state_.views.size(); ++v) renderer_->release_view(*world_, ViewId{v});
   time_s_ = 0.0;
   const std::uint32_t frames = std::max(kSettlingFrames, renderer_->frames_to_rest(*world_));
   for (std::uint32_t i = 0; i < frames; ++i) draw_frame(0.0, i == 0);
@@ -246,15 +245,11 @@ std::vector<std::uint8_t> Host::pictures() {
 }
 
 LiveBytes Host::live_bytes() {
-  // What no frame has used is kept for a while. The frames are all the same, so the renderer skips most of their work.
-  for (std::uint32_t i = 0; i < kFramesUntilRelease + 2; ++i) draw_frame(0.0, false, false);
-  // Atlases and lists shrink in the frames after free_idle_memory.
-  for (int turn = 0; turn < 2; ++turn) {
-    renderer_->free_idle_memory();
-    for (std::uint32_t i = 0; i < 3; ++i) draw_frame(0.0, false, false);
-  }
+  unload_scene();
+  for (std::uint32_t v = 0; v < state_.views.size(); ++v) renderer_->release_view(ViewId{v});
   renderer_->free_idle_memory();
-  return {live_heap_bytes(), callbacks_.live_bytes(), static_cast<std::int64_t>(watch_.live_bytes())};
+  const LiveHeap heap = live_heap();
+  return {heap.program, heap.libraries, callbacks_.live_bytes(), static_cast<std::int64_t>(watch_.live_bytes())};
 }
 
 }  // namespace gloam::soak

@@ -21,7 +21,8 @@ namespace gloam::soak {
 
 /// Live bytes: given and not taken back, as hooks of the functions that give and take have seen it.
 struct LiveBytes {
-  std::int64_t heap = 0;         ///< operator new, of all libraries in the process
+  std::int64_t heap = 0;         ///< operator new, of gloam and this program
+  std::int64_t libraries = 0;    ///< operator new, of shared libraries
   std::int64_t driver_heap = 0;  ///< VkAllocationCallbacks
   std::int64_t device = 0;       ///< vkAllocateMemory
 };
@@ -36,17 +37,18 @@ class Host {
 
   /// Brings the world, the views and the knobs to a state, from whatever they are.
   void show(const State& state);
-  /// Loads the scene of the state again, so that a world's buffers, which keep room for what it once held, are new.
-  void reload();
   /// Draws the frames of a step.
   void draw(const Step& step);
-  /// Lets the state settle, so that its pictures no longer depend on what was before: waits until all assets and
-  /// pipelines are there; then sets the clock back to 0, which starts simulations again, cuts the cameras, which starts
-  /// histories again, and draws a fixed number of frames.
+  /// Draws until all assets and pipelines of the state are there.
+  void complete();
+  /// Lets the state settle, so that its pictures no longer depend on what was before: completes it; releases the views,
+  /// because places and sizes of their shadow maps follow from those of earlier frames; sets the clock back to 0, which
+  /// starts simulations again; and draws a fixed number of frames.
   void settle();
   /// The pictures of the drawn views, as bytes that can be compared.
   [[nodiscard]] std::vector<std::uint8_t> pictures();
-  /// Frees what only past frames have needed, and measures.
+  /// Releases the world and the views, frees what only they have needed, and measures. What a world's buffers keep room
+  /// for, because it was there once, does not count then; what anything has leaked does. show() brings a state back.
   [[nodiscard]] LiveBytes live_bytes();
   [[nodiscard]] std::uint64_t validation_messages() const { return owner_->validation_messages(); }
   [[nodiscard]] bool has_device() const { return device_ != nullptr; }
@@ -65,8 +67,7 @@ class Host {
   Entity add_lamp(std::uint32_t number);
   [[nodiscard]] dmat4 place_of(std::uint32_t number) const;
   void set_knobs();
-  /// moves: the clock goes on.
-  void draw_frame(double turn, bool cut, bool moves = true);
+  void draw_frame(double turn, bool cut);
 
   std::shared_ptr<gpu::Device> owner_;  ///< of the VkDevice, with the validation messages
   gpu::vulkan::Features features_;

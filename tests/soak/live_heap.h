@@ -6,8 +6,12 @@
 
 namespace gloam::soak {
 
-/// Bytes that operator new has given to this process and operator delete has not taken back, by all libraries in it:
-/// live_heap.cpp replaces both.
-[[nodiscard]] std::int64_t live_heap_bytes();
+/// Bytes that operator new has given and operator delete has not taken back. live_heap.cpp replaces both for all
+/// libraries in the process, and tells by the caller whose they are.
+struct LiveHeap {
+  std::int64_t program = 0;    ///< of gloam and the program, which are linked into one file
+  std::int64_t libraries = 0;  ///< of shared libraries: the driver, its compiler, the validation layer
+};
+[[nodiscard]] LiveHeap live_heap();
 
 }  // namespace gloam::soak

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
 //
-// Draws frames while a random schedule changes everything that a host may change, and measures live bytes at the end of
-// each cycle, in the base state. Writes them to FOLDER/memory.csv and the pictures of the checkpoints to
-// FOLDER/state_N.ppm. With --state it brings itself to state N without the steps before it, and writes that picture:
-// both must be equal.
+// Draws frames while a random schedule changes everything that a host may change, and measures live bytes after the
+// tour and at the end of each cycle, while nothing is shown. They must not grow after the tour. Writes them to
+// FOLDER/memory.csv and the pictures of the checkpoints to FOLDER/state_N.ppm. With --state it brings itself to state N
+// without the steps before it, and writes that picture: both must be equal.
 // usage: gloam_soak FOLDER [--frames N] [--seed N] [--checkpoints N] [--state N] [--brief] [--validate]
+// frames: of all cycles. The tour, and the frames in which states settle, come on top.
 #include <malloc.h>
 
 #include <algorithm>
@@ -26,11 +27,6 @@ namespace gloam::soak {
 namespace {
 
 constexpr int kSkipped = 77;
-/// After this many frames live bytes may no longer grow by more than a hundredth.
-constexpr std::uint64_t kFramesBeforeFlat = 500;
-/// The same for brief cycles, which are fewer.
-constexpr std::uint64_t kBriefFramesBeforeFlat = 80;
-
 struct Arguments {
   std::string folder;
   std::uint64_t frames = 20000;
@@ -78,37 +74,19 @@ void write(const std::string& path, const std::vector<std::uint8_t>& bytes) {
       .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
 }
 
-/// Judges the live bytes at the ends of cycles.
-class Flatness {
- public:
-  /// Returns whether nothing has grown.
-  bool holds(std::uint64_t frames, std::uint64_t frames_before, const LiveBytes& now) {
-    const bool is_first = frames <= frames_before || !has_base_;
-    if (is_first)
-      base_ = {std::max(base_.heap, now.heap), std::max(base_.driver_heap, now.driver_heap),
-               std::max(base_.device, now.device)};
-    has_base_ = true;
-    return is_flat("operator new", base_.heap, now.heap, frames) &
-           is_flat("VkAllocationCallbacks", base_.driver_heap, now.driver_heap, frames) &
-           is_flat("vkAllocateMemory", base_.device, now.device, frames);
-  }
-
- private:
-  static bool is_flat(const char* what, std::int64_t base, std::int64_t now, std::uint64_t frames) {
-    if (now <= base + base / 100) return true;
-    std::fprintf(stderr, "soak: live bytes of %s grew from %lld to %lld after %llu frames\n", what,
-                 static_cast<long long>(base), static_cast<long long>(now), static_cast<unsigned long long>(frames));
-    return false;
-  }
-  LiveBytes base_;
-  bool has_base_ = false;
-};
+/// Whether live bytes after so many frames have grown by more than a hundredth.
+bool has_grown(const char* what, std::int64_t before, std::int64_t now, std::uint64_t frames) {
+  if (now <= before + before / 100) return false;
+  std::fprintf(stderr, "soak: live bytes of %s grew from %lld to %lld after %llu frames\n", what,
+               static_cast<long long>(before), static_cast<long long>(now), static_cast<unsigned long long>(frames));
+  return true;
+}
 
 class Run {
  public:
   Run(const Arguments& arguments, Host& host)
       : arguments_(arguments), host_(host), csv_(std::fopen((arguments.folder + "/memory.csv").c_str(), "w")) {
-    std::fprintf(csv_, "frames,heap,driver_heap,device,malloc,resident\n");
+    std::fprintf(csv_, "frames,heap,libraries,driver_heap,device,malloc,resident\n");
   }
   ~Run() { std::fclose(csv_); }
   Run(const Run&) = delete;
@@ -116,20 +94,16 @@ class Run {
 
   bool run() {
     const Plan plan(arguments_.seed, arguments_.brief);
+    for (const Step& step : plan.tour()) {
+      host_.show(step.state);
+      host_.complete();
+      host_.draw(step);
+    }
+    base_ = measure();
     const std::uint64_t cycles = std::max<std::uint64_t>(1, arguments_.frames / plan.frames_of_a_cycle());
-    std::uint64_t step_number = 0;
     for (std::uint64_t cycle = 0; cycle < cycles; ++cycle) {
-      const std::vector<Step> steps = plan.cycle(static_cast<std::uint32_t>(cycle));
-      const std::uint64_t all = steps.size() * cycles;
-      for (const Step& step : steps) {
-        host_.show(step.state);
-        host_.draw(step);
-        if (is_checkpoint(step_number, all)) check_point(step_number, step);
-        ++step_number;
-      }
-      host_.reload();
-      host_.settle();
-      measure(plan.frames_of_a_cycle() * (cycle + 1));
+      run_cycle(plan.cycle(static_cast<std::uint32_t>(cycle)), cycle, cycles);
+      judge(measure());
     }
     if (host_.validation_messages() > 0) {
       std::fprintf(stderr, "soak: %llu validation messages\n",
@@ -145,6 +119,15 @@ class Run {
     const auto before = [&](std::uint64_t place) { return (2 * place * arguments_.checkpoints + all) / (2 * all); };
     return before(step + 1) > before(step);
   }
+  void run_cycle(const std::vector<Step>& steps, std::uint64_t cycle, std::uint64_t cycles) {
+    std::uint64_t number = cycle * steps.size();
+    for (const Step& step : steps) {
+      host_.show(step.state);
+      host_.draw(step);
+      if (is_checkpoint(number, steps.size() * cycles)) check_point(number, step);
+      ++number;
+    }
+  }
   void check_point(std::uint64_t number, const Step& step) {
     host_.settle();
     write(arguments_.folder + "/state_" + std::to_string(number) + ".ppm", host_.pictures());
@@ -152,21 +135,29 @@ class Run {
                 step.state.scene.c_str());
     std::fflush(stdout);
   }
-  void measure(std::uint64_t frames) {
+  /// Live bytes while nothing is shown.
+  LiveBytes measure() {
     const LiveBytes now = host_.live_bytes();
     const struct mallinfo2 used = mallinfo2();
-    std::fprintf(csv_, "%llu,%lld,%lld,%lld,%zu,%lld\n", static_cast<unsigned long long>(frames),
-                 static_cast<long long>(now.heap), static_cast<long long>(now.driver_heap),
-                 static_cast<long long>(now.device), used.uordblks + used.hblkhd,
-                 static_cast<long long>(resident_bytes()));
+    std::fprintf(csv_, "%llu,%lld,%lld,%lld,%lld,%zu,%lld\n", static_cast<unsigned long long>(host_.frames()),
+                 static_cast<long long>(now.heap), static_cast<long long>(now.libraries),
+                 static_cast<long long>(now.driver_heap), static_cast<long long>(now.device),
+                 used.uordblks + used.hblkhd, static_cast<long long>(resident_bytes()));
     std::fflush(csv_);
-    good_ = flatness_.holds(frames, arguments_.brief ? kBriefFramesBeforeFlat : kFramesBeforeFlat, now) && good_;
+    return now;
+  }
+  void judge(const LiveBytes& now) {
+    const std::uint64_t frames = host_.frames();
+    const bool heap = has_grown("operator new", base_.heap, now.heap, frames);
+    const bool driver = has_grown("VkAllocationCallbacks", base_.driver_heap, now.driver_heap, frames);
+    const bool device = has_grown("vkAllocateMemory", base_.device, now.device, frames);
+    good_ = good_ && !heap && !driver && !device;
   }
 
   const Arguments& arguments_;
   Host& host_;
   std::FILE* csv_;
-  Flatness flatness_;
+  LiveBytes base_;  ///< after the tour
   bool good_ = true;
 };
 

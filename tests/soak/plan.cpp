@@ -16,7 +16,7 @@ using Knobs = std::map<std::string, std::string>;
 const std::vector<std::string> kScenes = {"plain",      "lens",       "smoke",    "lanterns", "many_lights",
                                           "penumbra",   "shadows",    "closeups", "meadow",   "shadow_grid",
                                           "wet_street", "meadow_day", "backlight"};
-const std::vector<std::string> kBriefScenes = {"plain", "smoke"};
+const std::vector<std::string> kBriefScenes = {"plain"};
 
 const std::vector<Knobs> kSettings = {
     {{"shadows.mode", "off"}},
@@ -32,13 +32,12 @@ const std::vector<Knobs> kSettings = {
 const std::vector<Knobs> kBriefSettings = {
     {{"shadows.kept_atlases", "0"}, {"shadows.reuse", "off"}},
     {{"scene.reuse", "off"}, {"lighting.reuse", "off"}},
-    {{"grass.density_scale", "0.3"}, {"shadows.atlas", "1024"}},
 };
 const std::vector<std::vector<std::string>> kWithout = {
     {"fog"}, {"grass"}, {"particles", "glare"}, {"shadows"}, {"reflections"}};
-const std::vector<std::vector<std::string>> kBriefWithout = {{"fog"}, {"grass"}};
+const std::vector<std::vector<std::string>> kBriefWithout = {{"fog"}};
 constexpr std::array<std::pair<std::uint32_t, std::uint32_t>, 5> kSizes = {
-    {{96, 54}, {64, 36}, {33, 71}, {128, 72}, {160, 90}}};
+    {{64, 36}, {96, 54}, {33, 61}, {80, 45}, {112, 63}}};
 
 enum class Kind {
   scene,
@@ -156,6 +155,34 @@ std::string name_of(Kind kind) {
 }
 
 }  // namespace
+
+std::vector<Step> Plan::tour() const {
+  std::vector<std::string> scenes = brief_ ? kBriefScenes : kScenes;
+  scenes.push_back(State().scene);
+  std::vector<Knobs> settings = brief_ ? kBriefSettings : kSettings;
+  settings.emplace_back();
+  std::vector<Step> steps;
+  std::uint32_t number = 0;
+  for (const std::string& scene : scenes) {
+    for (const Knobs& knobs : settings) {
+      Step step{.change = "tour", .frames = 2};
+      step.state.scene = scene;
+      step.state.knobs = knobs;
+      for (ShownView& view : step.state.views) {
+        view.drawn = true;
+        view.camera = number++;
+        std::tie(view.width, view.height) = kSizes[number % kSizes.size()];
+      }
+      for (std::uint32_t i = 0; i < 3; ++i) {
+        step.state.meshes.push_back(100 * i + number);
+        step.state.lamps.push_back(100 * i + number);
+      }
+      steps.push_back(std::move(step));
+    }
+  }
+  steps.push_back({.change = "base", .state = {}, .frames = 2, .is_base = true});
+  return steps;
+}
 
 std::vector<Step> Plan::cycle(std::uint32_t number) const {
   Dice dice(seed_ * 1000003u + number);

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
 //
-// The random schedule of a soak. It consists of cycles, which are equally long and begin and end in the base state.
+// The random schedule of a soak: a tour of all scenes and settings, then cycles, which are equally long and begin and
+// end in the base state.
 #pragma once
 
 #include <array>
@@ -14,8 +15,8 @@ namespace gloam::soak {
 
 struct ShownView {
   bool drawn = true;
-  std::uint32_t width = 96;
-  std::uint32_t height = 54;
+  std::uint32_t width = 64;
+  std::uint32_t height = 36;
   std::uint32_t camera = 0;          ///< modulo the number of the scene's cameras
   double turn = 0.0;                 ///< of the camera about its upward axis, radians
   std::vector<std::string> without;  ///< ViewSettings::without
@@ -45,10 +46,13 @@ class Plan {
  public:
   /// brief: cycles that fit a test of seconds, with few scenes.
   Plan(std::uint32_t seed, bool brief) : seed_(seed), brief_(brief) {}
+  /// Steps before the first cycle: every scene with every setting, and then the base state. After them the renderer's
+  /// lists are as long as they will be, and the driver has compiled what it will.
+  [[nodiscard]] std::vector<Step> tour() const;
   /// The steps of a cycle.
   [[nodiscard]] std::vector<Step> cycle(std::uint32_t number) const;
   /// Frames of a cycle, without those in which a state settles.
-  [[nodiscard]] std::uint32_t frames_of_a_cycle() const { return brief_ ? 40 : 500; }
+  [[nodiscard]] std::uint32_t frames_of_a_cycle() const { return brief_ ? 24 : 500; }
 
  private:
   std::uint32_t seed_;

@@ -134,7 +134,7 @@ std::vector<std::size_t> chosen_calls(const std::vector<test::FailingCalls::Call
   return chosen;
 }
 
-// Hard case: gpu.device_lost
+// Hard case: passes.failing_call
 TEST_F(FailingCalls, give_an_error_leave_nothing_behind_and_the_next_frames_are_right) {
   test::CallWatch watch;
   test::FailingCalls failing(test::CallWatch::loader());
