@@ -177,6 +177,12 @@ void Host::show(const State& state) {
   set_knobs();
 }
 
+void Host::reload() {
+  const State state = state_;
+  unload_scene();
+  show(state);
+}
+
 void Host::draw_frame(double turn, bool cut) {
   world_->resource<SceneClock>() = {.time_s = time_s_, .dt_s = kFrameS};
   std::vector<ViewRequest> requests;
@@ -245,10 +251,12 @@ std::vector<std::uint8_t> Host::pictures() {
 }
 
 LiveBytes Host::live_bytes() {
+  settle();
+  renderer_->free_idle_memory();
+  const LiveHeap heap = live_heap();
   unload_scene();
   for (std::uint32_t v = 0; v < state_.views.size(); ++v) renderer_->release_view(ViewId{v});
   renderer_->free_idle_memory();
-  const LiveHeap heap = live_heap();
   return {heap.program, heap.libraries, callbacks_.live_bytes(), static_cast<std::int64_t>(watch_.live_bytes())};
 }
 

@@ -37,6 +37,8 @@ class Host {
 
   /// Brings the world, the views and the knobs to a state, from whatever they are.
   void show(const State& state);
+  /// Loads the scene of the state again.
+  void reload();
   /// Draws the frames of a step.
   void draw(const Step& step);
   /// Draws until all assets and pipelines of the state are there.
@@ -47,8 +49,8 @@ class Host {
   void settle();
   /// The pictures of the drawn views, as bytes that can be compared.
   [[nodiscard]] std::vector<std::uint8_t> pictures();
-  /// Releases the world and the views, frees what only they have needed, and measures. What a world's buffers keep room
-  /// for, because it was there once, does not count then; what anything has leaked does. show() brings a state back.
+  /// Measures the heap after the state has settled. Then releases the world and the views, and measures what the driver
+  /// has given: a world's buffers keep room for what was there once, so they do not count. show() brings a state back.
   [[nodiscard]] LiveBytes live_bytes();
   [[nodiscard]] std::uint64_t validation_messages() const { return owner_->validation_messages(); }
   [[nodiscard]] bool has_device() const { return device_ != nullptr; }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Draws frames while a random schedule changes everything that a host may change, and measures live bytes after the
-// tour and at the end of each cycle, while nothing is shown. They must not grow after the tour. Writes them to
+// tour and at the end of each cycle, in the base state. They must not grow after the tour. Writes them to
 // FOLDER/memory.csv and the pictures of the checkpoints to FOLDER/state_N.ppm. With --state it brings itself to state N
 // without the steps before it, and writes that picture: both must be equal.
 // usage: gloam_soak FOLDER [--frames N] [--seed N] [--checkpoints N] [--state N] [--brief] [--validate]
@@ -135,8 +135,9 @@ class Run {
                 step.state.scene.c_str());
     std::fflush(stdout);
   }
-  /// Live bytes while nothing is shown.
+  /// Live bytes in the base state, with the scene loaded anew.
   LiveBytes measure() {
+    host_.reload();
     const LiveBytes now = host_.live_bytes();
     const struct mallinfo2 used = mallinfo2();
     std::fprintf(csv_, "%llu,%lld,%lld,%lld,%lld,%zu,%lld\n", static_cast<unsigned long long>(host_.frames()),
