@@ -46,7 +46,7 @@ double share(std::uint32_t number, std::uint32_t which) {
 
 }  // namespace
 
-Host::Host(bool validate) {
+Host::Host(bool validate, Readiness readiness) {
   owner_ = test::make_test_device(validate);
   if (owner_ == nullptr) return;
   gpu::HostDevice host = test::lend(*owner_, features_);
@@ -60,7 +60,7 @@ Host::Host(bool validate) {
   options.executor = executor_.get();
   options.log = &test::gpu_log();
   options.modules = make_all_modules();
-  options.readiness = Readiness::background;
+  options.readiness = readiness;
   options.upload_budget = kUploadBudget;
   renderer_ = value_of(Renderer::create(std::move(options)));
 }

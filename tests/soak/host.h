@@ -32,7 +32,7 @@ struct LiveBytes {
 class Host {
  public:
   /// Without a usable device, has_device() is false, and nothing else may be called.
-  explicit Host(bool validate);
+  explicit Host(bool validate, Readiness readiness);
   ~Host();
 
   /// Brings the world, the views and the knobs to a state, from whatever they are.

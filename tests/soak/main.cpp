@@ -172,7 +172,8 @@ void draw_state(const Arguments& arguments, Host& host) {
 }
 
 int run(const Arguments& arguments) {
-  Host host(arguments.validate);
+  // In the background, frames go on while pipelines are compiled: too many frames for a test of seconds.
+  Host host(arguments.validate, arguments.brief ? Readiness::wait : Readiness::background);
   if (!host.has_device()) return kSkipped;
   if (arguments.state) {
     draw_state(arguments, host);

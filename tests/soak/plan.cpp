@@ -16,7 +16,7 @@ using Knobs = std::map<std::string, std::string>;
 const std::vector<std::string> kScenes = {"plain",      "lens",       "smoke",    "lanterns", "many_lights",
                                           "penumbra",   "shadows",    "closeups", "meadow",   "shadow_grid",
                                           "wet_street", "meadow_day", "backlight"};
-const std::vector<std::string> kBriefScenes = {"plain"};
+const std::vector<std::string> kBriefScenes = {"smoke"};
 
 const std::vector<Knobs> kSettings = {
     {{"shadows.mode", "off"}},
