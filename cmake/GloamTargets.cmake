@@ -130,7 +130,7 @@ set(GLOAM_ENTRY_COSTS
   shadows_kernels_tests.width8=70 final_lists_on_gpu_tests.width8=85 program.play_tour=50
   shadow_maps_on_gpu_tests.width8=80 depth_of_field_kernel_tests.width8=50 shadows_hard_tests.width8=60 fuzz.loader=60
   deferred_shadows_tests.width8=50 embedding=50 depth_of_field_kernel_tests.second_device=40 closeups_on_gpu_tests.width8=40
-  program.legal_numbers=40 program.hard_scenes=20 golden_tests=25 embedding_clang=40 grass_gpu_tests.width8=30 program.cost=30
+  program.legal_numbers=40 soak=20 program.hard_scenes=20 golden_tests=25 embedding_clang=40 grass_gpu_tests.width8=30 program.cost=30
   reflections_kernel_tests.width8=15 list_flight_tests=20 lighting_gpu_tests.width8=20
   light_flight_tests=15 program.render=15 program.shader_cache=10)
 
@@ -208,6 +208,13 @@ function(gloam_add_test suite)
       add_custom_target(gloam_sanitize_tests)
     endif()
     add_dependencies(gloam_sanitize_tests ${suite})
+  endif()
+  if("threads" IN_LIST ARG_LABELS)
+    # The same for ThreadSanitizer.
+    if(NOT TARGET gloam_threads_tests)
+      add_custom_target(gloam_threads_tests)
+    endif()
+    add_dependencies(gloam_threads_tests ${suite})
   endif()
   gloam_add_entries(${suite} COMMAND ${suite} LABELS ${ARG_LABELS} WIDTHS ${ARG_WIDTHS} ENVIRONMENT ${ARG_ENVIRONMENT})
 endfunction()

@@ -157,8 +157,8 @@ class NativeCommands {
   ~NativeCommands();
   NativeCommands(const NativeCommands&) = delete;
   NativeCommands& operator=(const NativeCommands&) = delete;
-  /// Null on a device that records without a GPU (make_recording_device), and in a frame whose recording has failed, for
-  /// example because memory ran out: the host then records nothing.
+  /// Null on a device that records without a GPU (make_recording_device), and in a frame whose recording has failed,
+  /// for example because memory ran out: the host then records nothing.
   [[nodiscard]] VkCommandBuffer get() const { return buffer_; }
 
  private:

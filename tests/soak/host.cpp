@@ -46,7 +46,7 @@ double share(std::uint32_t number, std::uint32_t which) {
 
 }  // namespace
 
-Host::Host(bool validate, Readiness readiness) {
+Host::Host(bool validate) {
   owner_ = test::make_test_device(validate);
   if (owner_ == nullptr) return;
   gpu::HostDevice host = test::lend(*owner_, features_);
@@ -60,7 +60,7 @@ Host::Host(bool validate, Readiness readiness) {
   options.executor = executor_.get();
   options.log = &test::gpu_log();
   options.modules = make_all_modules();
-  options.readiness = readiness;
+  options.readiness = Readiness::background;
   options.upload_budget = kUploadBudget;
   renderer_ = value_of(Renderer::create(std::move(options)));
 }
@@ -183,7 +183,8 @@ void Host::reload() {
   show(state);
 }
 
-void Host::draw_frame(double turn, bool cut) {
+void Host::draw_frame(double turn, bool cut, Readiness readiness) {
+  renderer_->set_readiness(readiness);
   world_->resource<SceneClock>() = {.time_s = time_s_, .dt_s = kFrameS};
   std::vector<ViewRequest> requests;
   for (std::uint32_t v = 0; v < state_.views.size(); ++v) {
@@ -212,7 +213,7 @@ void Host::draw(const Step& step) {
     check(renderer_->set_budget({.ms = 15.0, .front = front}));
   }
   for (std::uint32_t i = 0; i < step.frames; ++i) {
-    draw_frame(0.02 * (i + 1.0 - step.frames), step.cuts && i == 0);
+    draw_frame(0.02 * (i + 1.0 - step.frames), step.cuts && i == 0, readiness_);
     if (step.has_budget) static_cast<void>(renderer_->add_frame_time({.ms = i % 8 < 4 ? 40.0 : 2.0}));
   }
   if (step.has_budget) renderer_->clear_budget();
@@ -221,7 +222,7 @@ void Host::draw(const Step& step) {
 
 void Host::complete() {
   for (int at_rest = 0; at_rest < 2;) {
-    draw_frame(0.0, false);
+    draw_frame(0.0, false, readiness_);
     const FrameReport report = renderer_->report();
     at_rest = report.assets_pending + report.pipelines_pending == 0 ? at_rest + 1 : 0;
   }
@@ -232,7 +233,8 @@ void Host::settle() {
   for (std::uint32_t v = 0; v < state_.views.size(); ++v) renderer_->release_view(*world_, ViewId{v});
   time_s_ = 0.0;
   const std::uint32_t frames = std::max(kSettlingFrames, renderer_->frames_to_rest(*world_));
-  for (std::uint32_t i = 0; i < frames; ++i) draw_frame(0.0, i == 0);
+  // The views' modules were released with their pipelines.
+  for (std::uint32_t i = 0; i < frames; ++i) draw_frame(0.0, i == 0, Readiness::wait);
 }
 
 std::vector<std::uint8_t> Host::pictures() {

@@ -32,9 +32,11 @@ struct LiveBytes {
 class Host {
  public:
   /// Without a usable device, has_device() is false, and nothing else may be called.
-  explicit Host(bool validate, Readiness readiness);
+  explicit Host(bool validate);
   ~Host();
 
+  /// At first frames wait for pipelines. Meshes and images are uploaded in the background in any case.
+  void set_readiness(Readiness readiness) { readiness_ = readiness; }
   /// Brings the world, the views and the knobs to a state, from whatever they are.
   void show(const State& state);
   /// Loads the scene of the state again.
@@ -69,7 +71,7 @@ class Host {
   Entity add_lamp(std::uint32_t number);
   [[nodiscard]] dmat4 place_of(std::uint32_t number) const;
   void set_knobs();
-  void draw_frame(double turn, bool cut);
+  void draw_frame(double turn, bool cut, Readiness readiness);
 
   std::shared_ptr<gpu::Device> owner_;  ///< of the VkDevice, with the validation messages
   gpu::vulkan::Features features_;
@@ -84,6 +86,7 @@ class Host {
   std::map<std::uint32_t, Streamed> meshes_;
   std::map<std::uint32_t, Entity> lamps_;
   State state_;
+  Readiness readiness_ = Readiness::wait;
   double time_s_ = 0.0;
   std::uint64_t frames_ = 0;
 };

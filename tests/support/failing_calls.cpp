@@ -120,9 +120,8 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL device_function(VkDevice device, const 
     GLOAM_VULKAN_DEVICE_FUNCTIONS(GLOAM_PLACE)
 #undef GLOAM_PLACE
   };
-#define GLOAM_HOOK(function)               \
-  if (text == #function) \
-    return hook<Hook<PFN_##function, place_##function>, PFN_##function>(#function, real);
+#define GLOAM_HOOK(function) \
+  if (text == #function) return hook<Hook<PFN_##function, place_##function>, PFN_##function>(#function, real);
   GLOAM_VULKAN_DEVICE_FUNCTIONS(GLOAM_HOOK)
 #undef GLOAM_HOOK
   return real;

@@ -91,7 +91,7 @@ class NativeCasters final : public Module {
     source.record = [this](const CasterSourceDraw& draw) {
       ++counts_.mesh_draws;
       const gpu::NativeCommands native = gpu::native_commands(draw.context().commands());
-      drawing_.record_mesh(native.get(), face_of(draw));
+      if (native.get() != VK_NULL_HANDLE) drawing_.record_mesh(native.get(), face_of(draw));
     };
     return source;
   }
@@ -102,7 +102,7 @@ class NativeCasters final : public Module {
     source.record = [this](const CasterSourceDraw& draw) {
       ++counts_.cube_draws;
       const gpu::NativeCommands native = gpu::native_commands(draw.context().commands());
-      drawing_.record_cubes(native.get(), face_of(draw));
+      if (native.get() != VK_NULL_HANDLE) drawing_.record_cubes(native.get(), face_of(draw));
     };
     return source;
   }
@@ -129,7 +129,7 @@ class NativeCasters final : public Module {
     pass.execute([this](PassContext& context) {
       ++counts_.skinned;
       const gpu::NativeCommands native = gpu::native_commands(context.commands());
-      drawing_.record_skinning(native.get(), mesh_.bones);
+      if (native.get() != VK_NULL_HANDLE) drawing_.record_skinning(native.get(), mesh_.bones);
     });
   }
 
