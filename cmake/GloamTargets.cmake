@@ -128,7 +128,7 @@ set(GLOAM_SECOND_DRIVER "/usr/lib/chromium/vk_swiftshader_icd.json" CACHE FILEPA
 # program.shader_cache copies the driver's cache and keeps its own shaders apart, so it follows those that fill the cache.
 set(GLOAM_ENTRY_COSTS
   shadows_kernels_tests.width8=70 final_lists_on_gpu_tests.width8=85 program.play_tour=50
-  shadow_maps_on_gpu_tests.width8=80 depth_of_field_kernel_tests.width8=50 shadows_hard_tests.width8=60 fuzz.loader=60
+  shadow_maps_on_gpu_tests.width8=80 depth_of_field_kernel_tests.width8=50 shadows_hard_tests.width8=60
   deferred_shadows_tests.width8=50 embedding=50 depth_of_field_kernel_tests.second_device=40 closeups_on_gpu_tests.width8=40
   program.legal_numbers=40 soak=20 program.hard_scenes=20 golden_tests=25 embedding_clang=40 grass_gpu_tests.width8=30 program.cost=30
   reflections_kernel_tests.width8=15 list_flight_tests=20 lighting_gpu_tests.width8=20

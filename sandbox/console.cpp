@@ -29,7 +29,7 @@ Console* taken_by = nullptr;
 
 void write_line(std::FILE* stream, std::string_view start, std::string_view message) {
   if (stream == nullptr) return;
-  const std::string line = std::string(start) + one_line(message) + "\n";
+  const std::string line = std::string(start) + joined_lines(message) + "\n";
   std::fwrite(line.data(), 1, line.size(), stream);
   std::fflush(stream);
 }
@@ -63,7 +63,7 @@ bool Console::shows_progress() const { return errors_ != nullptr && isatty(filen
 void Console::show_progress(std::string_view line) {
   if (line.empty() && !progress_) return;
   if (!shows_progress()) return;
-  const std::string text = "\r\x1b[K" + one_line(line);
+  const std::string text = "\r\x1b[K" + joined_lines(line);
   std::fwrite(text.data(), 1, text.size(), errors_);
   std::fflush(errors_);
   progress_ = !line.empty();
@@ -114,7 +114,7 @@ std::string Console::captured() const {
   return text;
 }
 
-std::string one_line(std::string_view text) {
+std::string joined_lines(std::string_view text) {
   std::string line;
   bool space = false;
   for (const char c : text) {

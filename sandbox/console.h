@@ -54,6 +54,6 @@ class Console {
 };
 
 /// `text` as one line: each run of spaces and control characters becomes one space, and both ends are trimmed.
-[[nodiscard]] std::string one_line(std::string_view text);
+[[nodiscard]] std::string joined_lines(std::string_view text);
 
 }  // namespace gloam

@@ -4,7 +4,9 @@
 #include "modules/c_interface/handles.h"
 #include "modules/module_list/module_list.h"
 
+using gloam::c_interface::EngineObject;
 using gloam::c_interface::guarded;
+using gloam::c_interface::guarded_with;
 using gloam::c_interface::usage_error;
 
 namespace gloam::c_interface {
@@ -31,7 +33,7 @@ Status create_engine(const gloam_engine_info* given, gloam_engine** engine) {
   if (info.threads > kMostThreads)
     return usage_error("gloam_engine_info::threads is " + std::to_string(info.threads) + "; at most " +
                        std::to_string(kMostThreads) + " are possible");
-  auto made = std::make_unique<gloam_engine>();
+  auto made = std::make_unique<EngineObject>();
   if (info.log != nullptr)
     made->log =
         std::make_unique<FunctionLog>([write = info.log, user = info.log_user](LogLevel level, std::string_view line) {
@@ -47,7 +49,7 @@ Status create_engine(const gloam_engine_info* given, gloam_engine** engine) {
                                     .modules = make_all_modules()});
   if (!renderer) return renderer.error();
   made->renderer = std::move(*renderer);
-  *engine = made.release();
+  *engine = engines().add(std::move(made));
   return {};
 }
 
@@ -63,43 +65,42 @@ gloam_result gloam_engine_create(const gloam_engine_info* info, gloam_engine** e
 gloam_result gloam_engine_destroy(gloam_engine* engine) {
   return guarded([&]() -> gloam::Status {
     if (engine == nullptr) return {};
-    if (engine->worlds > 0)
-      return usage_error("gloam_engine_destroy: " + std::to_string(engine->worlds) + " worlds of the engine exist");
-    const std::unique_ptr<gloam_engine> ending(engine);
+    const auto found = gloam::c_interface::object_of(engine, "gloam_engine_destroy");
+    if (!found) return found.error();
+    if (const auto worlds = (*found)->worlds; worlds > 0)
+      return usage_error("gloam_engine_destroy: " + std::to_string(worlds) + " worlds of the engine exist");
+    const std::unique_ptr<gloam::c_interface::EngineObject> ending = gloam::c_interface::engines().remove(engine);
     const gloam::Status waited = ending->renderer->wait();
-    for (const gloam_imported_image& image : ending->images) ending->device->destroy(image.handle);
+    for (const gloam::c_interface::ImportedImage& image : ending->images) ending->device->destroy(image.handle);
     ending->renderer.reset();
     return waited;
   });
 }
 
 const char* gloam_engine_device_name(const gloam_engine* engine) {
-  return engine == nullptr ? "" : engine->device->info().name.c_str();
+  const EngineObject* found = gloam::c_interface::engines().find(engine);
+  return found == nullptr ? "" : found->device->info().name.c_str();
 }
 
 uint64_t gloam_engine_validation_messages(const gloam_engine* engine) {
-  return engine == nullptr ? 0 : engine->device->validation_messages();
+  const EngineObject* found = gloam::c_interface::engines().find(engine);
+  return found == nullptr ? 0 : found->device->validation_messages();
 }
 
 gloam_result gloam_engine_set_knob(gloam_engine* engine, const char* knob, const char* value) {
-  return guarded([&]() -> gloam::Status {
-    if (engine == nullptr || knob == nullptr || value == nullptr)
-      return usage_error("gloam_engine_set_knob: an argument is null");
-    return engine->renderer->knobs().set(knob, value);
+  return guarded_with(engine, "gloam_engine_set_knob", [&](EngineObject& of) -> gloam::Status {
+    if (knob == nullptr || value == nullptr) return usage_error("gloam_engine_set_knob: an argument is null");
+    return of.renderer->knobs().set(knob, value);
   });
 }
 
 gloam_result gloam_engine_wait(gloam_engine* engine) {
-  return guarded([&]() -> gloam::Status {
-    if (engine == nullptr) return usage_error("gloam_engine_wait: engine is null");
-    return engine->renderer->wait();
-  });
+  return guarded_with(engine, "gloam_engine_wait", [](EngineObject& of) { return of.renderer->wait(); });
 }
 
 gloam_result gloam_engine_free_idle_memory(gloam_engine* engine) {
-  return guarded([&]() -> gloam::Status {
-    if (engine == nullptr) return usage_error("gloam_engine_free_idle_memory: engine is null");
-    engine->renderer->free_idle_memory();
+  return guarded_with(engine, "gloam_engine_free_idle_memory", [](EngineObject& of) -> gloam::Status {
+    of.renderer->free_idle_memory();
     return {};
   });
 }

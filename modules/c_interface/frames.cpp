@@ -6,8 +6,9 @@
 #include "engine/render/view.h"
 #include "modules/c_interface/handles.h"
 
-using gloam::c_interface::guarded;
+using gloam::c_interface::guarded_with;
 using gloam::c_interface::usage_error;
+using gloam::c_interface::WorldObject;
 
 namespace gloam::c_interface {
 namespace {
@@ -23,7 +24,7 @@ bool is_rigid_pose(const dmat4& m) {
   return glm::determinant(axes) > 0.0;
 }
 
-Result<ViewRequest> request_of(gloam_world& of, const gloam_view* given) {
+Result<ViewRequest> request_of(WorldObject& of, const gloam_view* given) {
   gloam_view view;
   GLOAM_TRY(read_struct(given, gloam_view(GLOAM_VIEW_INIT), "gloam_view", view));
   if (view.id >= CompanionViews::kMostMainIds)
@@ -59,7 +60,7 @@ Result<ViewRequest> request_of(gloam_world& of, const gloam_view* given) {
   return request;
 }
 
-Status render(gloam_world& of, const gloam_view* views, std::uint32_t count) {
+Status render(WorldObject& of, const gloam_view* views, std::uint32_t count) {
   if (count == 0 || count > kMostViews)
     return usage_error("gloam_render: count is " + std::to_string(count) + "; it is 1 to " +
                        std::to_string(kMostViews));
@@ -84,17 +85,15 @@ Status render(gloam_world& of, const gloam_view* views, std::uint32_t count) {
 extern "C" {
 
 gloam_result gloam_render(gloam_world* world, const gloam_view* views, uint32_t count) {
-  return guarded([&]() -> gloam::Status {
-    if (world == nullptr) return usage_error("gloam_render: world is null");
-    return gloam::c_interface::render(*world, views, count);
-  });
+  return guarded_with(world, "gloam_render",
+                      [&](WorldObject& of) { return gloam::c_interface::render(of, views, count); });
 }
 
 gloam_result gloam_read_picture(gloam_world* world, uint32_t view, uint8_t* rgba, size_t bytes, uint32_t* width,
                                 uint32_t* height) {
-  return guarded([&]() -> gloam::Status {
-    if (world == nullptr || rgba == nullptr) return usage_error("gloam_read_picture: an argument is null");
-    const auto picture = world->engine->renderer->read_picture(gloam::ViewId{view});
+  return guarded_with(world, "gloam_read_picture", [&](WorldObject& of) -> gloam::Status {
+    if (rgba == nullptr) return usage_error("gloam_read_picture: rgba is null");
+    const auto picture = of.engine->renderer->read_picture(gloam::ViewId{view});
     if (!picture) return picture.error();
     if (width != nullptr) *width = picture->width;
     if (height != nullptr) *height = picture->height;
@@ -107,9 +106,8 @@ gloam_result gloam_read_picture(gloam_world* world, uint32_t view, uint8_t* rgba
 }
 
 gloam_result gloam_release_view(gloam_world* world, uint32_t view) {
-  return guarded([&]() -> gloam::Status {
-    if (world == nullptr) return usage_error("gloam_release_view: world is null");
-    world->engine->renderer->release_view(world->world, gloam::ViewId{view});
+  return guarded_with(world, "gloam_release_view", [&](WorldObject& of) -> gloam::Status {
+    of.engine->renderer->release_view(of.world, gloam::ViewId{view});
     return {};
   });
 }

@@ -3,13 +3,14 @@
 
 /* gloam for C, and for every language that calls C.
  *
- * Handles are opaque. A function that can fail returns a gloam_result; gloam_error_message() then holds one sentence
- * about what failed and where. No exception leaves this interface. Lengths are in metres, angles in radians, light in
- * candela, lux and cd/m². Matrices are column-major, as in Vulkan; the camera and lights look along their -Z.
+ * Handles are opaque; one whose object was destroyed, or of another kind of object, is GLOAM_USAGE. A function that can
+ * fail returns a gloam_result; gloam_error_message() then holds one sentence about what failed and where. No exception
+ * leaves this interface. Lengths are in metres, angles in radians, light in candela, lux and cd/m². Matrices are
+ * column-major, as in Vulkan; the camera and lights look along their -Z.
  *
  * Structures begin with `size`. Fill them with their GLOAM_..._INIT and set what you need: a program that was compiled
  * against an older header then works with a newer library, which takes the defaults for members that the program does
- * not know. A structure larger than the library's own is GLOAM_USAGE.
+ * not know. A structure larger than the library's own, or whose size is no multiple of 8, is GLOAM_USAGE.
  *
  * An engine and its worlds are used by one thread at a time.
  */

@@ -15,8 +15,9 @@
 
 // Materials, meshes and lights of a world.
 
-using gloam::c_interface::guarded;
+using gloam::c_interface::guarded_with;
 using gloam::c_interface::usage_error;
+using gloam::c_interface::WorldObject;
 
 namespace gloam::c_interface {
 namespace {
@@ -29,7 +30,7 @@ Status check_values(std::initializer_list<float> values, float least, const char
   return {};
 }
 
-Status create_material(gloam_world& of, const gloam_material* given, std::uint32_t& number) {
+Status create_material(WorldObject& of, const gloam_material* given, std::uint32_t& number) {
   gloam_material read;
   GLOAM_TRY(read_struct(given, gloam_material(GLOAM_MATERIAL_INIT), "gloam_material", read));
   const float* color = read.base_color;
@@ -68,7 +69,7 @@ Status check_mesh(const gloam_mesh& mesh, const SceneAssets& assets) {
   return {};
 }
 
-Status create_mesh(gloam_world& of, const gloam_mesh* given, std::uint32_t& number) {
+Status create_mesh(WorldObject& of, const gloam_mesh* given, std::uint32_t& number) {
   gloam_mesh read;
   GLOAM_TRY(read_struct(given, gloam_mesh(GLOAM_MESH_INIT), "gloam_mesh", read));
   auto& assets = of.world.resource<SceneAssets>();
@@ -124,61 +125,60 @@ Result<Light> light_of(const gloam_light* given, bool& casts) {
 extern "C" {
 
 gloam_result gloam_material_create(gloam_world* world, const gloam_material* material, uint32_t* number) {
-  return guarded([&]() -> gloam::Status {
-    if (world == nullptr || number == nullptr) return usage_error("gloam_material_create: an argument is null");
-    return gloam::c_interface::create_material(*world, material, *number);
+  return guarded_with(world, "gloam_material_create", [&](WorldObject& of) -> gloam::Status {
+    if (number == nullptr) return usage_error("gloam_material_create: an argument is null");
+    return gloam::c_interface::create_material(of, material, *number);
   });
 }
 
 gloam_result gloam_mesh_create(gloam_world* world, const gloam_mesh* mesh, uint32_t* number) {
-  return guarded([&]() -> gloam::Status {
-    if (world == nullptr || number == nullptr) return usage_error("gloam_mesh_create: an argument is null");
-    return gloam::c_interface::create_mesh(*world, mesh, *number);
+  return guarded_with(world, "gloam_mesh_create", [&](WorldObject& of) -> gloam::Status {
+    if (number == nullptr) return usage_error("gloam_mesh_create: an argument is null");
+    return gloam::c_interface::create_mesh(of, mesh, *number);
   });
 }
 
 gloam_result gloam_instance_create(gloam_world* world, uint32_t mesh, const double matrix[16], gloam_entity* entity) {
-  return guarded([&]() -> gloam::Status {
-    if (world == nullptr || entity == nullptr) return usage_error("gloam_instance_create: an argument is null");
+  return guarded_with(world, "gloam_instance_create", [&](WorldObject& of) -> gloam::Status {
+    if (entity == nullptr) return usage_error("gloam_instance_create: an argument is null");
     const auto pose = gloam::c_interface::matrix_of(matrix, "matrix");
     if (!pose) return pose.error();
-    const std::size_t meshes = world->world.resource<gloam::SceneAssets>().meshes.size();
+    const std::size_t meshes = of.world.resource<gloam::SceneAssets>().meshes.size();
     if (mesh >= meshes)
       return usage_error("gloam_instance_create: mesh is " + std::to_string(mesh) + "; the world has " +
                          std::to_string(meshes));
-    *entity = gloam::c_interface::number_of(
-        world->world.create(gloam::WorldTransform{*pose}, gloam::MeshInstance{.mesh = mesh}));
+    *entity =
+        gloam::c_interface::number_of(of.world.create(gloam::WorldTransform{*pose}, gloam::MeshInstance{.mesh = mesh}));
     return {};
   });
 }
 
 gloam_result gloam_light_create(gloam_world* world, const gloam_light* light, const double matrix[16],
                                 gloam_entity* entity) {
-  return guarded([&]() -> gloam::Status {
-    if (world == nullptr || entity == nullptr) return usage_error("gloam_light_create: an argument is null");
+  return guarded_with(world, "gloam_light_create", [&](WorldObject& of) -> gloam::Status {
+    if (entity == nullptr) return usage_error("gloam_light_create: an argument is null");
     bool casts = true;
     const auto made = gloam::c_interface::light_of(light, casts);
     if (!made) return made.error();
     const auto pose = gloam::c_interface::matrix_of(matrix, "matrix");
     if (!pose) return pose.error();
     *entity = gloam::c_interface::number_of(
-        world->world.create(gloam::WorldTransform{*pose}, *made, gloam::ShadowCaster{.enabled = casts}));
+        of.world.create(gloam::WorldTransform{*pose}, *made, gloam::ShadowCaster{.enabled = casts}));
     return {};
   });
 }
 
 gloam_result gloam_light_set(gloam_world* world, gloam_entity entity, const gloam_light* light) {
-  return guarded([&]() -> gloam::Status {
-    if (world == nullptr) return usage_error("gloam_light_set: world is null");
-    const auto found = gloam::c_interface::entity_of(world->world, entity);
+  return guarded_with(world, "gloam_light_set", [&](WorldObject& of) -> gloam::Status {
+    const auto found = gloam::c_interface::entity_of(of.world, entity);
     if (!found) return found.error();
-    if (!world->world.has<gloam::Light>(*found))
+    if (!of.world.has<gloam::Light>(*found))
       return usage_error("gloam_light_set: entity " + std::to_string(entity) + " is no light");
     bool casts = true;
     const auto made = gloam::c_interface::light_of(light, casts);
     if (!made) return made.error();
-    world->world.add(*found, *made);
-    world->world.add(*found, gloam::ShadowCaster{.enabled = casts});
+    of.world.add(*found, *made);
+    of.world.add(*found, gloam::ShadowCaster{.enabled = casts});
     return {};
   });
 }

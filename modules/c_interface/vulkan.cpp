@@ -34,7 +34,7 @@ gpu::Format format_of(std::uint32_t format) {
 
 /// The handle of a host's image with this description. Handles stay until the host has the image forgotten: other views
 /// of the frame may use them.
-Result<gpu::ImageHandle> import(gloam_engine& engine, std::uint64_t image, std::uint32_t format, const gloam_view& view,
+Result<gpu::ImageHandle> import(EngineObject& engine, std::uint64_t image, std::uint32_t format, const gloam_view& view,
                                 gpu::ImageUsage usage, const char* name) {
   gpu::ImageDesc desc;
   desc.name = name;
@@ -48,7 +48,7 @@ Result<gpu::ImageHandle> import(gloam_engine& engine, std::uint64_t image, std::
   if (desc.format == gpu::Format::undefined || (usage == gpu::ImageUsage::color_target && !is_picture))
     return usage_error(std::string(name) + "_format is " + std::to_string(format) +
                        ", which gloam does not take there");
-  for (const gloam_imported_image& kept : engine.images)
+  for (const ImportedImage& kept : engine.images)
     if (kept.image == image && kept.desc.format == desc.format && kept.desc.width == desc.width &&
         kept.desc.height == desc.height && kept.desc.usage == desc.usage)
       return kept.handle;
@@ -56,7 +56,7 @@ Result<gpu::ImageHandle> import(gloam_engine& engine, std::uint64_t image, std::
   return engine.images.back().handle;
 }
 
-Result<HostGeometry> geometry_of(gloam_engine& engine, const gloam_view& view) {
+Result<HostGeometry> geometry_of(EngineObject& engine, const gloam_view& view) {
   gloam_host_geometry read;
   GLOAM_TRY(read_struct(view.geometry, gloam_host_geometry(GLOAM_HOST_GEOMETRY_INIT), "gloam_host_geometry", read));
   HostGeometryDesc desc;
@@ -107,7 +107,7 @@ Result<std::unique_ptr<gpu::Device>> create_device_on(const gloam_vulkan_device&
   return gpu::create_vulkan_device_on(host);
 }
 
-Status use_host_images(gloam_engine& engine, const gloam_view& view, ViewRequest& request) {
+Status use_host_images(EngineObject& engine, const gloam_view& view, ViewRequest& request) {
   if (view.image != 0) {
     const auto image =
         import(engine, view.image, view.image_format, view, gpu::ImageUsage::color_target, "gloam_view::image");
@@ -125,10 +125,10 @@ Status use_host_images(gloam_engine& engine, const gloam_view& view, ViewRequest
 }  // namespace gloam::c_interface
 
 extern "C" gloam_result gloam_engine_forget_image(gloam_engine* engine, uint64_t image) {
-  return gloam::c_interface::guarded([&]() -> gloam::Status {
-    if (engine == nullptr) return gloam::c_interface::usage_error("gloam_engine_forget_image: engine is null");
-    std::erase_if(engine->images, [&](const gloam_imported_image& kept) {
-      if (kept.image == image) engine->device->destroy(kept.handle);
+  using gloam::c_interface::EngineObject;
+  return gloam::c_interface::guarded_with(engine, "gloam_engine_forget_image", [&](EngineObject& of) -> gloam::Status {
+    std::erase_if(of.images, [&](const gloam::c_interface::ImportedImage& kept) {
+      if (kept.image == image) of.device->destroy(kept.handle);
       return kept.image == image;
     });
     return {};

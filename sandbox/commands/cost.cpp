@@ -204,10 +204,10 @@ std::string command_line(const Options& options) {
 }
 
 Status write_report(const Ledger& ledger, const Options& options, const std::vector<KnobMeaning>& knobs,
-                    const PictureFolder& pictures) {
+                    const PictureFolder& pictures, LogSink& log) {
   ReportRequest request = {.command = command_line(options), .meanings = knobs, .picture = {}};
   request.picture = [&](const std::string& name) { return pictures.small_file(name); };
-  const auto selftest = find_selftest(options, ledger.header.device, ledger.header.driver);
+  const auto selftest = find_selftest(options, ledger.header.device, ledger.header.driver, log);
   if (selftest) request.stability = &*selftest;
   return write_file(options.out + "/report.html", ledger_report(ledger, request));
 }
@@ -301,7 +301,7 @@ Status measure_scene(const CommandContext& context) {
     return Error{ErrorKind::input, options.scene + " changed while it was measured: no ledger is written; run again"};
   GLOAM_TRY(write_ledger(ledger, options.out));
   if (const Status kept = keep_ledger(ledger, options); !kept.ok()) context.log.warning(kept.error().message);
-  GLOAM_TRY(write_report(ledger, options, measured->knobs, pictures));
+  GLOAM_TRY(write_report(ledger, options, measured->knobs, pictures, context.log));
   context.console.print(ledger_table(ledger) + points_table(ledger));
   if (options.quiet) return {};
   if (progress.resumed() > 0)

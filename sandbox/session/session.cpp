@@ -94,7 +94,7 @@ Result<std::unique_ptr<Session>> open_session_on(std::shared_ptr<gpu::Device> de
   GLOAM_TRY(check_scene_exists(options.scene));
   auto session = open_empty_session(std::move(device), options, log, std::move(more_modules));
   if (!session) return session;
-  if (options.command == Command::render) make_kept_pipelines(**session, options);
+  if (options.command == Command::render) make_kept_pipelines(**session, options, log);
   GLOAM_TRY(fill_session(**session, options, log));
   return session;
 }

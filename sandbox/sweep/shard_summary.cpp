@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/core/text/plain_text.h"
 #include "sandbox/output/json_text.h"
 #include "sandbox/sweep/scene_list.h"
 
@@ -60,7 +61,7 @@ Result<ShardSummary> parse_summary(std::string_view text) {
     if (summary.shard.number >= 1 && summary.shard.number <= summary.shard.count) return summary;
     return Error{ErrorKind::input, "is no summary of a shard: its shard is not in 1…N"};
   } catch (const Json::exception& fault) {
-    return Error{ErrorKind::input, std::string("is no summary of a shard: ") + fault.what()};
+    return Error{ErrorKind::input, "is no summary of a shard: " + one_line(fault.what(), 300)};
   }
 }
 

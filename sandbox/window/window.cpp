@@ -26,7 +26,7 @@ namespace {
 std::string glfw_reason() {
   const char* text = nullptr;
   glfwGetError(&text);
-  return text == nullptr ? "no reason given" : one_line(text);
+  return text == nullptr ? "no reason given" : joined_lines(text);
 }
 
 /// GLFW's keys in the order of EditKey.

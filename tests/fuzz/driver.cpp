@@ -1,12 +1,18 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-// Loads mutated scene files for GLOAM_FUZZ_SECONDS seconds (default 10), beginning with seed GLOAM_FUZZ_SEED (default
-// 1). Ends with 1 and keeps the input if the loader breaks its promise, takes more than 20 s for one input or more than
-// 6 GiB of memory. If it crashes, the input is the file that the first line of output names. With arguments, it loads
-// the files that they name instead; "--seeds FOLDER" writes the sound files that are mutated.
+// usage: fuzz TARGET            runs mutated inputs for GLOAM_FUZZ_SECONDS seconds (default 1), beginning with seed
+//                               GLOAM_FUZZ_SEED (default 1)
+//        fuzz TARGET FILE…      runs these inputs
+//        fuzz --list            prints the names of all targets
+//        fuzz --seeds TARGET FOLDER  writes the inputs that are mutated
+//        fuzz --words TARGET    prints a dictionary for libFuzzer
+// Ends with 1 and keeps the input if the code under test breaks a promise, takes more than 20 s for one input or more
+// than 6 GiB of memory. After a crash, the input is in the file that the first line of output names.
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <chrono>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -14,13 +20,13 @@
 #include <iterator>
 #include <string>
 
-#include "tests/fuzz/loader_target.h"
 #include "tests/fuzz/mutation.h"
-#include "tests/fuzz/seeds.h"
+#include "tests/fuzz/target.h"
 
 namespace {
 
 using gloam::fuzz::Bytes;
+using gloam::fuzz::Target;
 using Clock = std::chrono::steady_clock;
 
 constexpr double kLongestInput_s = 20.0;
@@ -39,36 +45,63 @@ long peak_memory_kib() {
   return usage.ru_maxrss;
 }
 
-struct Counts {
-  std::uint64_t loaded = 0;
-  std::uint64_t refused = 0;
-};
-
-/// False, with the reason and a copy of the input, if the input is a finding. error: the loader's message.
-bool run(const Bytes& bytes, Counts& counts, std::string& error) {
-  const Clock::time_point start = Clock::now();
-  const gloam::fuzz::LoadOutcome outcome = gloam::fuzz::load_bytes(bytes);
-  ++(outcome.loaded ? counts.loaded : counts.refused);
-  error = outcome.error;
-  std::string fault = outcome.fault;
-  if (seconds_since(start) > kLongestInput_s) fault = "took " + std::to_string(seconds_since(start)) + " s";
-  if (peak_memory_kib() > kMostMemory_kib) fault = "took " + std::to_string(peak_memory_kib()) + " KiB of memory";
-  if (fault.empty()) return true;
-  const std::string kept = std::filesystem::temp_directory_path().string() + "/gloam_fuzz_finding.gltf";
-  std::filesystem::copy_file(gloam::fuzz::scene_path(), kept, std::filesystem::copy_options::overwrite_existing);
-  std::cerr << "finding: " << fault << "; input: " << kept << '\n';
-  return false;
+void write_bytes(const std::filesystem::path& path, const Bytes& bytes) {
+  std::ofstream(path, std::ios::binary)
+      .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
 }
 
-/// Loads every file and tells each refusal. Returns the number of refusals; −1 at a finding.
-int load_all(const std::vector<Bytes>& files) {
-  Counts counts;
-  for (const Bytes& file : files) {
-    std::string error;
-    if (!run(file, counts, error)) return -1;
-    if (!error.empty()) std::cerr << "refused: " << error << '\n';
+/// Runs the inputs of one target.
+class Runner {
+ public:
+  explicit Runner(const Target& target) : target_(target) {
+    const auto name = "gloam_fuzz_" + std::string(target.name) + "_" + std::to_string(getpid());
+    input_ = std::filesystem::temp_directory_path() / name;
+    std::cout << "each input is written to " << input_.string() << std::endl;
   }
-  return static_cast<int>(counts.refused);
+  ~Runner() {
+    if (!keep_) std::filesystem::remove(input_);
+  }
+  Runner(const Runner&) = delete;
+  Runner& operator=(const Runner&) = delete;
+
+  /// False, with the reason, if the input is a finding. error: the message of a refusal.
+  bool run(const Bytes& bytes, std::string& error) {
+    write_bytes(input_, bytes);
+    const Clock::time_point start = Clock::now();
+    const gloam::fuzz::Outcome outcome = gloam::fuzz::run(target_, bytes);
+    ++(outcome.accepted ? accepted_ : refused_);
+    error = outcome.error;
+    std::string fault = outcome.fault;
+    if (seconds_since(start) > kLongestInput_s) fault = "took " + std::to_string(seconds_since(start)) + " s";
+    if (peak_memory_kib() > kMostMemory_kib) fault = "took " + std::to_string(peak_memory_kib()) + " KiB of memory";
+    if (fault.empty()) return true;
+    keep_ = true;
+    std::cerr << "finding: " << fault << "; input: " << input_.string() << '\n';
+    return false;
+  }
+  [[nodiscard]] std::uint64_t accepted() const { return accepted_; }
+  [[nodiscard]] std::uint64_t refused() const { return refused_; }
+
+ private:
+  const Target& target_;
+  std::filesystem::path input_;
+  bool keep_ = false;
+  std::uint64_t accepted_ = 0;
+  std::uint64_t refused_ = 0;
+};
+
+/// Runs every input and prints each refusal. Returns the number of refusals; −1 at a finding.
+int run_all(Runner& runner, const std::vector<Bytes>& inputs) {
+  int refusals = 0;
+  for (const Bytes& input : inputs) {
+    std::string error;
+    const std::uint64_t before = runner.refused();
+    if (!runner.run(input, error)) return -1;
+    if (runner.refused() == before) continue;
+    ++refusals;
+    std::cerr << "refused: " << error << '\n';
+  }
+  return refusals;
 }
 
 std::vector<Bytes> read_files(int count, char** names) {
@@ -80,32 +113,65 @@ std::vector<Bytes> read_files(int count, char** names) {
   return files;
 }
 
-int write_seeds(const std::filesystem::path& folder) {
+int write_seeds(const Target& target, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
-  const std::vector<Bytes> seeds = gloam::fuzz::seeds();
-  for (std::size_t i = 0; i < seeds.size(); ++i)
-    std::ofstream(folder / ("seed" + std::to_string(i)), std::ios::binary)
-        .write(reinterpret_cast<const char*>(seeds[i].data()), static_cast<std::streamsize>(seeds[i].size()));
+  const std::vector<Bytes> seeds = gloam::fuzz::seeds(target);
+  for (std::size_t i = 0; i < seeds.size(); ++i) write_bytes(folder / ("seed" + std::to_string(i)), seeds[i]);
+  return 0;
+}
+
+int print_words(const Target& target) {
+  for (const std::string& word : gloam::fuzz::words(target)) {
+    std::string line = "\"";
+    for (const char c : word) {
+      char code[8];
+      std::snprintf(code, sizeof(code), "\\x%02x", static_cast<unsigned>(static_cast<unsigned char>(c)));
+      line += code;
+    }
+    std::cout << line << "\"\n";
+  }
+  return 0;
+}
+
+int run_mutated(const Target& target) {
+  const unsigned long seconds = number_from("GLOAM_FUZZ_SECONDS", 1);
+  const unsigned long seed = number_from("GLOAM_FUZZ_SEED", 1);
+  const std::vector<Bytes> seeds = gloam::fuzz::seeds(target);
+  const std::vector<std::string> words = gloam::fuzz::words(target);
+  const std::size_t fixed = target.formats.size() > 1 ? 1 : 0;
+  Runner runner(target);
+  if (run_all(runner, seeds) != 0) return 1;
+  std::string error;
+  gloam::fuzz::Random random(seed);
+  const Clock::time_point start = Clock::now();
+  while (seconds_since(start) < static_cast<double>(seconds))
+    if (!runner.run(gloam::fuzz::mutate(seeds, words, fixed, random), error)) return 1;
+  std::cout << target.name << ", " << seconds << " s, seed " << seed << ": " << runner.accepted()
+            << " inputs accepted, " << runner.refused() << " refused, peak memory " << peak_memory_kib() / 1024
+            << " MiB\n";
+  return 0;
+}
+
+int list_targets() {
+  for (const Target& target : gloam::fuzz::targets()) std::cout << target.name << '\n';
   return 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc == 3 && std::string(argv[1]) == "--seeds") return write_seeds(argv[2]);
-  std::cout << "each input is written to " << gloam::fuzz::scene_path() << std::endl;
-  if (argc > 1) return load_all(read_files(argc - 1, argv + 1)) < 0 ? 1 : 0;
-  const unsigned long seconds = number_from("GLOAM_FUZZ_SECONDS", 10);
-  const unsigned long seed = number_from("GLOAM_FUZZ_SEED", 1);
-  const std::vector<Bytes> seeds = gloam::fuzz::seeds();
-  if (load_all(seeds) != 0) return 1;
-  Counts counts;
-  std::string error;
-  gloam::fuzz::Random random(seed);
-  const Clock::time_point start = Clock::now();
-  while (seconds_since(start) < static_cast<double>(seconds))
-    if (!run(gloam::fuzz::mutate(seeds, random), counts, error)) return 1;
-  std::cout << seconds << " s, seed " << seed << ": " << counts.loaded << " inputs loaded, " << counts.refused
-            << " refused, peak memory " << peak_memory_kib() / 1024 << " MiB\n";
-  return 0;
+  const std::string first = argc > 1 ? argv[1] : "";
+  if (first == "--list") return list_targets();
+  const bool option = first.starts_with("--");
+  const int at = option ? 2 : 1;
+  const Target* target = argc > at ? gloam::fuzz::find_target(argv[at]) : nullptr;
+  if (target == nullptr) {
+    std::cerr << "usage: fuzz TARGET [FILE…] | --list | --seeds TARGET FOLDER | --words TARGET\n";
+    return 2;
+  }
+  if (first == "--seeds" && argc == 4) return write_seeds(*target, argv[3]);
+  if (first == "--words") return print_words(*target);
+  if (argc == 2) return run_mutated(*target);
+  Runner runner(*target);
+  return run_all(runner, read_files(argc - 2, argv + 2)) < 0 ? 1 : 0;
 }

@@ -50,8 +50,8 @@ void replace_number(Bytes& text, Random& random) {
   const std::size_t start = below(random, text.size());
   for (std::size_t i = 0; i < text.size(); ++i) {
     const std::size_t at = (start + i) % text.size();
-    const bool begins =
-        is_number_byte(text[at]) && at > 0 && (text[at - 1] == ' ' || text[at - 1] == '[' || text[at - 1] == ',');
+    const bool begins = is_number_byte(text[at]) && at > 0 &&
+                        std::string_view(" [,:=x/\n").find(static_cast<char>(text[at - 1])) != std::string_view::npos;
     if (!begins) continue;
     std::size_t end = at;
     while (end < text.size() && is_number_byte(text[end])) ++end;
@@ -83,10 +83,37 @@ std::span<const std::uint8_t> piece(const Bytes& bytes, Random& random) {
   return std::span(bytes).subspan(begin, below(random, std::min(longest, bytes.size() - begin) + 1));
 }
 
-void change(Bytes& bytes, std::span<const Bytes> seeds, Random& random) {
+bool is_word_byte(std::uint8_t byte) {
+  return is_number_byte(byte) || byte == '_' || (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z');
+}
+
+/// Puts a word at a random place, or in the place of the word that is there.
+void put_word(Bytes& text, std::span<const std::string> words, Random& random) {
+  if (words.empty() || text.empty()) return;
+  const std::string& word = words[below(random, words.size())];
+  const auto at = text.begin() + static_cast<std::ptrdiff_t>(below(random, text.size()));
+  auto first = at, last = at;
+  if (below(random, 3) > 0) {
+    while (first != text.begin() && is_word_byte(first[-1])) --first;
+    last = std::find_if_not(at, text.end(), is_word_byte);
+  }
+  text.insert(text.erase(first, last), word.begin(), word.end());
+}
+
+/// Overwrites four bytes at a multiple of four with a number at which binary formats end.
+void put_number_bytes(Bytes& bytes, Random& random) {
+  constexpr std::array<std::uint32_t, 10> kNumbers = {0,          1,          2,          0xffu,       0xffffu,
+                                                      0x7fffffff, 0x80000000, 0xffffffff, 0x7f800000u, 0x7fc00000u};
+  if (bytes.size() < 4) return;
+  const std::size_t at = below(random, bytes.size() / 4) * 4;
+  const std::uint32_t number = kNumbers[below(random, kNumbers.size())];
+  for (std::size_t i = 0; i < 4; ++i) bytes[at + i] = static_cast<std::uint8_t>(number >> (8 * i));
+}
+
+void change(Bytes& bytes, std::span<const Bytes> seeds, std::span<const std::string> words, Random& random) {
   if (bytes.empty()) return;
   const auto place = [&] { return bytes.begin() + static_cast<std::ptrdiff_t>(below(random, bytes.size())); };
-  switch (below(random, 10)) {
+  switch (below(random, 13)) {
     case 0:
       bytes.resize(below(random, bytes.size()));
       break;
@@ -118,6 +145,13 @@ void change(Bytes& bytes, std::span<const Bytes> seeds, Random& random) {
       bytes.insert(place(), other.begin(), other.end());
       break;
     }
+    case 7:
+      put_number_bytes(bytes, random);
+      break;
+    case 8:
+    case 9:
+      put_word(bytes, words, random);
+      break;
     default:
       replace_number(bytes, random);
       break;
@@ -135,13 +169,14 @@ void flip_bytes(Bytes& bytes, Random& random) {
 }
 
 /// Changes the chunks of a sound .glb and packs them again.
-void change_chunks(Bytes& glb, bool keep_form, std::span<const Bytes> seeds, Random& random) {
+void change_chunks(Bytes& glb, bool keep_form, std::span<const Bytes> seeds, std::span<const std::string> words,
+                   Random& random) {
   const std::size_t json_end = 20 + word_at(glb, 12);
   Bytes json(glb.begin() + 20, glb.begin() + static_cast<std::ptrdiff_t>(json_end));
   Bytes bin(glb.begin() + static_cast<std::ptrdiff_t>(std::min(json_end + 8, glb.size())), glb.end());
   const bool in_buffer = below(random, 4) == 0;
   if (!keep_form)
-    change(in_buffer ? bin : json, seeds, random);
+    change(in_buffer ? bin : json, seeds, words, random);
   else if (in_buffer)
     flip_bytes(bin, random);
   else
@@ -151,22 +186,27 @@ void change_chunks(Bytes& glb, bool keep_form, std::span<const Bytes> seeds, Ran
 
 }  // namespace
 
-Bytes mutate(std::span<const Bytes> seeds, Random& random) {
-  Bytes bytes = seeds[below(random, seeds.size())];
+Bytes mutate(std::span<const Bytes> seeds, std::span<const std::string> words, std::size_t fixed, Random& random) {
+  const Bytes& seed = seeds[below(random, seeds.size())];
+  fixed = std::min(fixed, seed.size());
+  Bytes bytes(seed.begin() + static_cast<std::ptrdiff_t>(fixed), seed.end());
   const std::size_t changes = 1 + below(random, 4);
-  const bool glb = bytes.size() > 20 && bytes[0] == 'g' && bytes[1] == 'l';
+  const bool glb = bytes.size() > 20 && bytes[0] == 'g' && bytes[1] == 'l' && word_at(bytes, 12) <= bytes.size() - 20;
   const bool keep_form = below(random, 2) == 0;
   const bool keep_chunks = glb && (keep_form || below(random, 2) == 0);
   for (std::size_t i = 0; i < changes; ++i) {
     if (keep_chunks)
-      change_chunks(bytes, keep_form, seeds, random);
+      change_chunks(bytes, keep_form, seeds, words, random);
     else if (keep_form && below(random, 4) == 0)
       change_data_uri(bytes, random);
+    else if (keep_form && below(random, 2) == 0)
+      put_word(bytes, words, random);
     else if (keep_form)
       replace_number(bytes, random);
     else
-      change(bytes, seeds, random);
+      change(bytes, seeds, words, random);
   }
+  bytes.insert(bytes.begin(), seed.begin(), seed.begin() + static_cast<std::ptrdiff_t>(fixed));
   return bytes;
 }
 

@@ -10,10 +10,10 @@ namespace gloam {
 namespace {
 
 TEST(Console, any_text_becomes_one_line) {
-  EXPECT_EQ(one_line("plain"), "plain");
-  EXPECT_EQ(one_line("  a\n\tb\r\nc \n"), "a b c");
-  EXPECT_EQ(one_line("\n\n"), "");
-  EXPECT_EQ(one_line("1…2 é"), "1…2 é");
+  EXPECT_EQ(joined_lines("plain"), "plain");
+  EXPECT_EQ(joined_lines("  a\n\tb\r\nc \n"), "a b c");
+  EXPECT_EQ(joined_lines("\n\n"), "");
+  EXPECT_EQ(joined_lines("1…2 é"), "1…2 é");
 }
 
 }  // namespace

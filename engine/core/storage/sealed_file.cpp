@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/core/storage/sealed_file.h"
 
+#include <array>
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <cstdint>
@@ -60,6 +62,43 @@ void remove_left_files(const std::filesystem::path& target) {
   }
 }
 
+constexpr std::size_t kLongestPath = 1024;
+enum class SlotState : std::uint8_t { free, filling, noted };
+static_assert(std::atomic<SlotState>::is_always_lock_free);
+
+/// A path where a handler of a signal finds it.
+struct PathSlot {
+  std::atomic<SlotState> state{SlotState::free};
+  char path[kLongestPath] = {};
+};
+std::array<PathSlot, 16> path_slots;
+
+/// The path of a file that is being written, in a slot.
+class UnfinishedFile {
+ public:
+  /// A path that is too long, or of more files than threads usually write at once, is not noted: the next writer of the
+  /// same target removes that file.
+  void note(const std::string& path) {
+    if (path.size() >= kLongestPath) return;
+    for (PathSlot& slot : path_slots) {
+      SlotState free = SlotState::free;
+      if (!slot.state.compare_exchange_strong(free, SlotState::filling)) continue;
+      path.copy(slot.path, path.size());
+      slot.path[path.size()] = '\0';
+      slot.state.store(SlotState::noted);
+      slot_ = &slot;
+      return;
+    }
+  }
+  void forget() {
+    if (slot_ != nullptr) slot_->state.store(SlotState::free);
+    slot_ = nullptr;
+  }
+
+ private:
+  PathSlot* slot_ = nullptr;
+};
+
 /// A file of a name that no other one has, in the folder of the file that it will replace. Unless it is renamed, it is
 /// removed in the end.
 class NewFile {
@@ -76,8 +115,11 @@ class NewFile {
       std::snprintf(name, sizeof(name), "%x-%016llx.partial", process_number(),
                     static_cast<unsigned long long>(unique));
       path_ = target.parent_path() / ((prefix.empty() ? ".gloam-" : prefix) + name);
+      unfinished_.note(path_.string());
       file_ = std::fopen(path_.string().c_str(), "wbx");  // x: fails if another process has made the file
-      if (file_ == nullptr && errno != EEXIST) break;
+      if (file_ != nullptr) break;
+      unfinished_.forget();
+      if (errno != EEXIST) break;
     }
     made_ = file_ != nullptr;
   }
@@ -86,6 +128,7 @@ class NewFile {
     if (file_ != nullptr) std::fclose(file_);
     std::error_code ignored;
     if (made_) std::filesystem::remove(path_, ignored);
+    unfinished_.forget();
     errno = reason;
   }
   NewFile(const NewFile&) = delete;
@@ -110,8 +153,31 @@ class NewFile {
  private:
   std::filesystem::path path_;
   std::FILE* file_ = nullptr;
+  UnfinishedFile unfinished_;
   bool made_ = false;  ///< there is a file at path_
 };
+
+SealedFault read_whole(const std::string& path, std::string& text) {
+  std::error_code fault;
+  const std::filesystem::file_status status = std::filesystem::status(path, fault);
+  if (!std::filesystem::exists(status)) return SealedFault::absent;
+  if (!std::filesystem::is_regular_file(status)) return SealedFault::not_a_file;
+  // The size is that of the open file: another process may replace the file at any time.
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  const std::streamoff size = file.tellg();
+  if (!file || size < 0 || !file.seekg(0)) return SealedFault::unreadable;
+  text.resize(static_cast<std::size_t>(size));
+  return file.read(text.data(), static_cast<std::streamsize>(size)) ? SealedFault::none : SealedFault::unreadable;
+}
+
+/// The file that a path names, through all links; it need not exist.
+std::filesystem::path without_links(std::filesystem::path path) {
+  constexpr int kMostLinks = 40;
+  std::error_code fault;
+  for (int links = 0; links < kMostLinks && std::filesystem::is_symlink(path, fault); ++links)
+    path = path.parent_path() / std::filesystem::read_symlink(path, fault);  // an absolute target replaces the folder
+  return path;
+}
 
 }  // namespace
 
@@ -121,9 +187,7 @@ Status write_whole_file(const std::string& path, std::string_view bytes) {
   };
   std::error_code fault;
   // A link stays: the file that it names is replaced.
-  const std::filesystem::path given(path);
-  const std::filesystem::path target = std::filesystem::is_symlink(given, fault) ? canonical(given, fault) : given;
-  if (fault && fault != std::errc::no_such_file_or_directory) return failed(fault.message());
+  const std::filesystem::path target = without_links(path);
   const std::filesystem::path folder = target.parent_path();
   if (!folder.empty()) std::filesystem::create_directories(folder, fault);
   if (!folder.empty() && fault) return failed(fault.message());
@@ -146,20 +210,47 @@ Status write_sealed(const std::string& path, std::string_view identity, std::str
   return write_whole_file(path, text);
 }
 
-std::optional<std::string> read_sealed(const std::string& path, std::string_view identity) {
-  // The size is that of the open file: another process may replace the file at any time.
-  std::ifstream file(path, std::ios::binary | std::ios::ate);
-  const std::streamoff size = file.tellg();
-  if (!file || size < 0 || !file.seekg(0)) return std::nullopt;
-  std::string text(static_cast<std::size_t>(size), '\0');
-  if (!file.read(text.data(), static_cast<std::streamsize>(size))) return std::nullopt;
-  const std::size_t head_size = kMagic.size() + 16 + 1 + identity.size() + 1;
-  if (text.size() < head_size) return std::nullopt;
-  std::string payload = text.substr(head_size);
-  std::string head(kMagic);
-  head.append(checksum_of(identity, payload)).append("\n").append(identity).append("\n");
-  if (text.compare(0, head_size, head) != 0) return std::nullopt;
-  return payload;
+std::string_view text_of(SealedFault fault) {
+  switch (fault) {
+    case SealedFault::none:
+      return "is sound";
+    case SealedFault::absent:
+      return "does not exist";
+    case SealedFault::not_a_file:
+      return "is not a file";
+    case SealedFault::unreadable:
+      return "cannot be read";
+    case SealedFault::damaged:
+      return "is damaged";
+    case SealedFault::other:
+      return "is of another version or of something else";
+  }
+  return {};
+}
+
+std::optional<std::string> read_sealed(const std::string& path, std::string_view identity, SealedFault* fault) {
+  SealedFault ignored = SealedFault::none;
+  SealedFault& reason = fault == nullptr ? ignored : *fault;
+  std::string text;
+  reason = read_whole(path, text);
+  if (reason != SealedFault::none) return std::nullopt;
+  reason = SealedFault::damaged;
+  constexpr std::size_t kChecksumSize = 16;
+  const std::size_t identity_at = kMagic.size() + kChecksumSize + 1;
+  const std::size_t identity_end = text.find('\n', identity_at);
+  if (!text.starts_with(kMagic) || identity_end == std::string::npos || text[identity_at - 1] != '\n')
+    return std::nullopt;
+  const std::string_view own_identity = std::string_view(text).substr(identity_at, identity_end - identity_at);
+  const std::string_view payload = std::string_view(text).substr(identity_end + 1);
+  if (text.compare(kMagic.size(), kChecksumSize, checksum_of(own_identity, payload)) != 0) return std::nullopt;
+  reason = own_identity == identity ? SealedFault::none : SealedFault::other;
+  if (reason != SealedFault::none) return std::nullopt;
+  return std::string(payload);
+}
+
+void remove_unfinished_files() {
+  for (const PathSlot& slot : path_slots)
+    if (slot.state.load() == SlotState::noted) remove_in_handler(slot.path);
 }
 
 std::string hash_text(std::string_view text) { return checksum_of({}, text); }

@@ -30,4 +30,7 @@ namespace gloam {
 /// Writes what the system still holds of an open file to the disk. Returns false, with errno set, if it fails.
 [[nodiscard]] bool flush_to_disk(std::FILE* file);
 
+/// Removes a file; for handlers of signals: it allocates nothing and takes no lock.
+void remove_in_handler(const char* path);
+
 }  // namespace gloam

@@ -37,4 +37,6 @@ std::string host_name() {
 
 bool flush_to_disk(std::FILE* file) { return fsync(fileno(file)) == 0; }
 
+void remove_in_handler(const char* path) { static_cast<void>(unlink(path)); }
+
 }  // namespace gloam

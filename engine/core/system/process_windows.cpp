@@ -48,4 +48,6 @@ std::string host_name() {
 
 bool flush_to_disk(std::FILE* file) { return _commit(_fileno(file)) == 0; }
 
+void remove_in_handler(const char* path) { static_cast<void>(DeleteFileA(path)); }
+
 }  // namespace gloam

@@ -10,7 +10,9 @@
 #include <optional>
 
 #include "engine/core/assert.h"
+#include "engine/core/text/json_nesting.h"
 #include "engine/core/text/nearest_name.h"
+#include "engine/core/text/plain_text.h"
 
 namespace gloam {
 namespace {
@@ -81,12 +83,12 @@ Status KnobRegistry::set(std::string_view name, std::string_view value) {
   if (knob == nullptr) {
     std::vector<std::string> names;
     for (const Knob& k : knobs_) names.push_back(k.name);
-    return Error{ErrorKind::usage, "unknown knob " + std::string(name) + "; " + valid_names(name, names)};
+    return Error{ErrorKind::usage, "unknown knob " + one_line(name) + "; " + valid_names(name, names)};
   }
   const std::optional<double> parsed = parse_value(*knob, value);
   if (!parsed)
     return Error{ErrorKind::usage,
-                 "knob " + knob->name + " must be " + valid_values(*knob) + ", is \"" + std::string(value) + "\""};
+                 "knob " + knob->name + " must be " + valid_values(*knob) + ", is " + in_quotes(value)};
   values_[static_cast<std::size_t>(knob - knobs_.data())] = *parsed;
   ++version_;
   return {};
@@ -95,11 +97,12 @@ Status KnobRegistry::set(std::string_view name, std::string_view value) {
 Status KnobRegistry::set_assignment(std::string_view assignment) {
   const std::size_t equals = assignment.find('=');
   if (equals == std::string_view::npos)
-    return Error{ErrorKind::usage, "a knob is set as NAME=VALUE, not \"" + std::string(assignment) + "\""};
+    return Error{ErrorKind::usage, "a knob is set as NAME=VALUE, not " + in_quotes(assignment)};
   return set(assignment.substr(0, equals), assignment.substr(equals + 1));
 }
 
 Status KnobRegistry::set_from_json(std::string_view text, std::string_view source) {
+  if (nests_too_deep(text)) return Error{ErrorKind::usage, std::string(source) + ": " + too_deep_text()};
   const auto json = nlohmann::json::parse(text, nullptr, false);
   if (!json.is_object()) return Error{ErrorKind::usage, std::string(source) + ": is not a JSON object of knobs"};
   for (const auto& [name, value] : json.items()) {

@@ -29,6 +29,11 @@ int number_of(Enum value) {
   return static_cast<int>(value);
 }
 
+/// The first line of a record.
+std::string header_of(std::string_view body) {
+  return Json{{"pipelines", kVersion}, {"checksum", checksum(body)}}.dump() + "\n";
+}
+
 Json json_of(const gpu::ShaderCode& code) {
   return code.words.empty() ? Json() : Json{{"name", code.name}, {"words", words_hash(code)}};
 }
@@ -71,7 +76,7 @@ Json json_of(const gpu::GraphicsPipelineDesc& desc) {
           {"depth_bias", desc.depth_bias}};
 }
 
-/// Reads the descriptions of a record whose checksum is right: its form is that of this file.
+/// Reads the descriptions of a record whose checksum is right. Somebody else may have written it nevertheless.
 class Reader {
  public:
   Reader(std::span<const gpu::ShaderCode* const> shaders, PipelineNames& names) : names_(names) {
@@ -94,10 +99,16 @@ class Reader {
     return desc;
   }
 
+  /// Whether all numbers so far stand for a value of their type.
+  [[nodiscard]] bool sound() const { return sound_; }
+
  private:
+  /// last: the type's last value.
   template <class Enum>
-  static void read(const Json& json, Enum& value) {
-    value = static_cast<Enum>(json.get<int>());
+  void read(const Json& json, Enum& value, Enum last) {
+    const int number = json.get<int>();
+    sound_ = sound_ && number >= 0 && number <= number_of(last);
+    if (sound_) value = static_cast<Enum>(number);
   }
 
   [[nodiscard]] bool read_shader(const Json& json, gpu::ShaderCode& code) const {
@@ -120,7 +131,7 @@ class Reader {
     for (const Json& constant : json.at("constants")) {
       const std::string& name = *names_.insert(constant.at("name").get<std::string>()).first;
       gpu::SpecValue value(std::uint32_t{0});
-      read(constant.at("type"), value.type);
+      read(constant.at("type"), value.type, gpu::SpecType::floating);
       value.bits = constant.at("bits").get<std::uint32_t>();
       if (constant.at("if_present").get<bool>())
         desc.constants.set_if_present(name, value);
@@ -129,20 +140,21 @@ class Reader {
     }
   }
 
-  static void read_state(const Json& json, gpu::GraphicsPipelineDesc& desc) {
+  void read_state(const Json& json, gpu::GraphicsPipelineDesc& desc) {
     for (const Json& a : json.at("attributes")) {
       gpu::VertexAttribute& made = desc.attributes.emplace_back();
       made.location = a.at(0).get<std::uint32_t>();
       made.stream = a.at(1).get<std::uint32_t>();
-      read(a.at(2), made.format);
+      read(a.at(2), made.format, gpu::Format::d32_float);
       made.offset = a.at(3).get<std::uint32_t>();
     }
     desc.stream_strides = json.at("strides").get<std::vector<std::uint32_t>>();
-    for (const Json& format : json.at("color_formats")) read(format, desc.color_formats.emplace_back());
-    read(json.at("depth_format"), desc.depth_format);
-    read(json.at("cull"), desc.cull);
-    read(json.at("blend"), desc.blend);
-    read(json.at("depth_compare"), desc.depth_compare);
+    for (const Json& format : json.at("color_formats"))
+      read(format, desc.color_formats.emplace_back(), gpu::Format::d32_float);
+    read(json.at("depth_format"), desc.depth_format, gpu::Format::d32_float);
+    read(json.at("cull"), desc.cull, gpu::CullMode::back);
+    read(json.at("blend"), desc.blend, gpu::BlendMode::premultiplied_over);
+    read(json.at("depth_compare"), desc.depth_compare, gpu::CompareOp::always);
     desc.depth_write = json.at("depth_write").get<bool>();
     desc.depth_bias = json.at("depth_bias").get<bool>();
   }
@@ -150,6 +162,7 @@ class Reader {
   std::map<std::string_view, const gpu::ShaderCode*> shaders_;
   mutable std::map<const gpu::ShaderCode*, std::uint64_t> hashes_;
   PipelineNames& names_;
+  bool sound_ = true;
 };
 
 }  // namespace
@@ -161,17 +174,18 @@ std::string pipeline_record(const PipelineList& list) {
   std::string body = "[";
   for (const std::string& line : lines) body += (body.size() > 1 ? ",\n" : "\n") + line;
   body += "\n]\n";
-  return Json{{"pipelines", kVersion}, {"checksum", checksum(body)}}.dump() + "\n" + body;
+  return header_of(body) + body;
+}
+
+bool is_sound_record(std::string_view record) {
+  const std::size_t end = record.find('\n');
+  return end != std::string_view::npos && record.substr(0, end + 1) == header_of(record.substr(end + 1));
 }
 
 PipelineList parse_pipeline_record(std::string_view record, std::span<const gpu::ShaderCode* const> shaders,
                                    PipelineNames& names) {
-  const std::size_t end = record.find('\n');
-  if (end == std::string_view::npos) return {};
-  const std::string_view body = record.substr(end + 1);
-  const Json header = Json::parse(record.substr(0, end), nullptr, false);
-  if (header.is_discarded() || header != Json{{"pipelines", kVersion}, {"checksum", checksum(body)}}) return {};
-  const Json all = Json::parse(body, nullptr, false);
+  if (!is_sound_record(record)) return {};
+  const Json all = Json::parse(record.substr(record.find('\n') + 1), nullptr, false);
   if (all.is_discarded()) return {};
   PipelineList list;
   Reader reader(shaders, names);
@@ -181,7 +195,7 @@ PipelineList parse_pipeline_record(std::string_view record, std::span<const gpu:
   } catch (const Json::exception&) {  // written by somebody else, with a checksum
     return {};
   }
-  return list;
+  return reader.sound() ? list : PipelineList();
 }
 
 }  // namespace gloam

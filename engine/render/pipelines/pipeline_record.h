@@ -21,6 +21,9 @@ using PipelineNames = std::set<std::string, std::less<>>;
 /// JSON with a checksum. Shaders are named, with a hash of their words.
 [[nodiscard]] std::string pipeline_record(const PipelineList& list);
 
+/// Whether a text is a whole record: its version and checksum are right.
+[[nodiscard]] bool is_sound_record(std::string_view record);
+
 /// The descriptions of a record, without those of shaders that `shaders` does not have with the same words. Empty if
 /// the record is damaged. The result refers to `shaders` and `names`.
 [[nodiscard]] PipelineList parse_pipeline_record(std::string_view record,

@@ -4,12 +4,16 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "engine/core/text/json_nesting.h"
+#include "engine/core/text/plain_text.h"
 #include "modules/accuracy/ledger/row_json.h"
 
 namespace gloam {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kMostFaultBytes = 300;  ///< the parser quotes what it has read last, however long it is
 
 Json pair_json(const ErrorPair& pair) { return {{"mean", pair.mean}, {"p99", pair.p99}}; }
 ErrorPair pair_of(const Json& json) { return {json.at("mean").get<double>(), json.at("p99").get<double>()}; }
@@ -263,10 +267,14 @@ LedgerHeader header_of(const Json& json) {
 /// Returns `read(json)`, or an error that names the fault in the text. `what`: names the text in the message.
 template <class Read>
 auto parse(std::string_view text, const char* what, Read&& read) -> Result<decltype(read(Json()))> {
+  const auto fault_of = [what](std::string_view fault) {
+    return Error{ErrorKind::input, std::string("is no ") + what + ": " + one_line(fault, kMostFaultBytes)};
+  };
+  if (nests_too_deep(text)) return fault_of("it " + too_deep_text());
   try {
     return read(Json::parse(text));
   } catch (const Json::exception& fault) {
-    return Error{ErrorKind::input, std::string("is no ") + what + ": " + fault.what()};
+    return fault_of(fault.what());
   }
 }
 

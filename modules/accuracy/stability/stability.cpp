@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "engine/core/text/formatted.h"
+#include "engine/core/text/plain_text.h"
 #include "modules/accuracy/report/html_text.h"
 
 namespace gloam {
@@ -98,7 +99,7 @@ Result<StabilityReport> parse_stability_json(std::string_view text) {
     for (const nlohmann::json& check : json.at("checks")) report.checks.push_back(check_of(check));
     return report;
   } catch (const nlohmann::json::exception& fault) {
-    return Error{ErrorKind::input, std::string("not the file of a self-test: ") + fault.what()};
+    return Error{ErrorKind::input, "not the file of a self-test: " + one_line(fault.what(), 300)};
   }
 }
 

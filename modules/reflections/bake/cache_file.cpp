@@ -3,10 +3,11 @@
 #include "modules/reflections/bake.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "engine/core/assert.h"
@@ -20,6 +21,7 @@ namespace gloam {
 namespace {
 
 constexpr std::uint32_t kMaxMips = 16;
+constexpr std::size_t kMostHalves = std::size_t{1} << 40;
 
 /// Entities with a T, by entity index.
 template <class T>
@@ -41,14 +43,19 @@ void write_layers(ByteWriter& bytes, const CapturedLayers& layers) {
   bytes.items(std::span<const std::uint16_t>(layers.texels));
 }
 
+std::uint32_t mips_of(std::uint32_t side) { return static_cast<std::uint32_t>(std::bit_width(side)); }
+
 CapturedLayers read_layers(ByteReader& bytes) {
   CapturedLayers layers;
   layers.side = bytes.value<std::uint32_t>();
   layers.mips = bytes.value<std::uint32_t>();
   layers.count = bytes.value<std::uint32_t>();
-  bytes.require(layers.mips <= kMaxMips && layers.side <= 1u << kMaxMips);
+  const bool is_power = layers.side == 0 || std::has_single_bit(layers.side);
+  bytes.require(is_power && layers.side <= 1u << kMaxMips && layers.mips <= mips_of(layers.side));
   const std::size_t halves_each = bytes.ok() ? layers.layer_halves() : 0;
   bytes.require(layers.count == 0 || halves_each > 0);
+  // Of damaged bytes, the product could exceed std::size_t: there would be fewer texels than layers.
+  bytes.require(halves_each == 0 || layers.count <= kMostHalves / halves_each);
   if (!bytes.ok()) return {};
   layers.texels = bytes.items<std::uint16_t>(halves_each * layers.count);
   return bytes.ok() ? layers : CapturedLayers{};
@@ -219,16 +226,18 @@ Status save_captures(const std::string& path, const World& world, const Reflecti
 
 std::optional<ReflectionCaptures> load_captures(const std::string& path, const World& world, std::uint64_t content,
                                                 LogSink& log) {
-  std::error_code fault;
-  if (!std::filesystem::exists(path, fault)) return std::nullopt;
+  SealedFault fault = SealedFault::none;
   std::optional<ReflectionCaptures> captures;
-  if (const auto bytes = read_sealed(path, identity_of(content))) captures = decode_captures(world, *bytes);
-  if (!captures || captures->content != content) {
-    log.write_from("reflections", LogLevel::info,
-                   path + ": is not used: it is damaged, or its captures are of another state of the scene");
+  if (const auto bytes = read_sealed(path, identity_of(content), &fault)) captures = decode_captures(world, *bytes);
+  if (captures && captures->content == content) return captures;
+  if (fault == SealedFault::absent) return std::nullopt;
+  if (fault == SealedFault::other) {
+    log.write_from("reflections", LogLevel::info, path + ": is not used: it is of another state of the scene");
     return std::nullopt;
   }
-  return captures;
+  const std::string_view reason = text_of(fault == SealedFault::none ? SealedFault::damaged : fault);
+  log.write_from("reflections", LogLevel::warning, path + ": " + std::string(reason) + "; the captures are made again");
+  return std::nullopt;
 }
 
 }  // namespace gloam

@@ -45,7 +45,7 @@ struct ScratchFolder {
 
 Result<Ledger> measure_ledger(Session& session, const Options& options, SessionCosts& costs) {
   if (!options.ledger.empty()) {
-    auto found = find_own_ledger(session, options);
+    auto found = find_own_ledger(session, options, null_log());
     if (!found) return found.error();
     return std::move((**found).ledger);
   }

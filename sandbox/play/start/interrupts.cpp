@@ -11,6 +11,8 @@
 #include <mutex>
 #include <stop_token>
 
+#include "engine/core/storage/sealed_file.h"
+
 namespace gloam {
 namespace {
 
@@ -34,7 +36,9 @@ void watch(const std::stop_token& stop) {
     static_cast<void>(pause(kBetweenLooks));
     if (signal_number.load() == 0) continue;
     static_cast<void>(pause(kPatienceAtSignal));
-    if (!stop.stop_requested()) std::_Exit(kSignalExit + signal_number.load());
+    if (stop.stop_requested()) return;
+    remove_unfinished_files();
+    std::_Exit(kSignalExit + signal_number.load());
   }
 }
 
@@ -42,6 +46,7 @@ void watch(const std::stop_token& stop) {
 
 void end_process(int code) {
   std::fflush(nullptr);
+  remove_unfinished_files();
   std::_Exit(code);
 }
 

@@ -82,7 +82,7 @@ Status Opening::run(const WindowNeeds& window, std::uint32_t width, std::uint32_
     pipelines_ = &session_->pipelines;
     step_ = {.what = "loading the scene"};
   }
-  make_kept_pipelines(*session_, options_);
+  make_kept_pipelines(*session_, options_, log_);
   GLOAM_TRY(fill_session(*session_, options_, log_));
   GLOAM_TRY(ensure_captures(*session_, options_, log_, teller("capturing reflections")));
   GLOAM_TRY(ensure_particle_light(*session_, options_, log_, teller("tracing the light of particles")));
@@ -96,7 +96,7 @@ Status Opening::run(const WindowNeeds& window, std::uint32_t width, std::uint32_
 /// Sets the budgets of --budget. Frames of a scene without a ledger of its own are measured for some seconds.
 Status Opening::choose_budgets(const Options& drawn) {
   if (!has_budget(drawn)) return {};
-  auto own = find_own_ledger(*session_, drawn);
+  auto own = find_own_ledger(*session_, drawn, log_);
   if (!own) return own.error();
   if (*own) return set_budgets(*session_, drawn, **own, log_);
   if (!drawn.budget_ms) return set_budgets(*session_, drawn, log_);

@@ -36,13 +36,17 @@ Status ensure_particle_light(Session& session, const Options& options, LogSink& 
   auto& current = session.world.resource<ParticleLightMaps>();
   const std::uint64_t version = current.version + 1;
   if (!path.empty()) {
-    if (const auto bytes = read_sealed(path, identity)) {
+    SealedFault fault = SealedFault::none;
+    if (const auto bytes = read_sealed(path, identity, &fault)) {
       if (auto maps = decode_particle_light(session.world, *bytes)) {
         current = std::move(*maps);
         current.version = version;
         return {};
       }
+      fault = SealedFault::damaged;
     }
+    if (fault != SealedFault::absent && fault != SealedFault::other)
+      log.warning(path + ": " + std::string(text_of(fault)) + "; the particle light is made again");
   }
   current = bake_particle_light(
       {.world = session.world, .tracer = **tracer, .executor = *session.executor, .progress = progress});

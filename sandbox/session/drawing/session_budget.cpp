@@ -76,7 +76,7 @@ Status set_budgets(Session& session, const Options& options, const LedgerFile& f
 
 Status set_budgets(Session& session, const Options& options, LogSink& log) {
   if (!has_budget(options)) return {};
-  const auto found = find_ledger(session, options);
+  const auto found = find_ledger(session, options, log);
   return found ? set_budgets(session, options, *found, log) : found.error();
 }
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <system_error>
@@ -41,8 +43,8 @@ bool exists(const std::string& path) {
   return !path.empty() && fs::is_regular_file(path, fault);
 }
 
-/// The file in the folder that was written last; empty: there is none.
-std::string newest_in(const std::string& folder) {
+/// The files in the folder, beginning with the one that was written last.
+std::vector<std::string> newest_first(const std::string& folder) {
   std::vector<std::pair<fs::file_time_type, std::string>> files;
   std::error_code fault;
   for (fs::directory_iterator entry(folder, fault), end; !fault && entry != end; entry.increment(fault)) {
@@ -50,7 +52,18 @@ std::string newest_in(const std::string& folder) {
     const auto written = entry->last_write_time(unknown);
     if (!unknown && entry->path().extension() == ".json") files.emplace_back(written, entry->path().string());
   }
-  return files.empty() ? std::string() : std::ranges::max_element(files)->second;
+  std::ranges::sort(files, std::greater());
+  std::vector<std::string> paths;
+  for (auto& [written, path] : files) paths.push_back(std::move(path));
+  return paths;
+}
+
+/// A ledger of the cache folder. One that cannot be read is as if it were not there: the next measurement replaces it.
+std::optional<LedgerFile> read_kept(const std::string& path, LogSink& log) {
+  auto found = read_ledger(path);
+  if (found) return std::move(found).value();
+  log.warning(found.error().message + "; it is not used");
+  return std::nullopt;
 }
 
 std::size_t measured_knobs(const Ledger& ledger) {
@@ -82,7 +95,7 @@ Status keep_ledger(const Ledger& ledger, const Options& options) {
   return write_file(path, ledger_json(ledger));
 }
 
-Result<std::optional<LedgerFile>> find_own_ledger(const Session& session, const Options& options) {
+Result<std::optional<LedgerFile>> find_own_ledger(const Session& session, const Options& options, LogSink& log) {
   std::string path;
   if (!options.ledger.empty()) {
     std::error_code fault;
@@ -90,9 +103,9 @@ Result<std::optional<LedgerFile>> find_own_ledger(const Session& session, const 
   } else if (const std::string beside = ledger_beside(options.scene); exists(beside)) {
     path = beside;
   } else if (!options.cache_dir.empty()) {
-    path =
+    const std::string kept =
         device_folder(options, session.device->info().name) + "/" + scene_hash(options.scene, session.world) + ".json";
-    if (!exists(path)) path.clear();
+    return exists(kept) ? read_kept(kept, log) : std::nullopt;
   }
   if (path.empty()) return std::optional<LedgerFile>();
   auto found = read_ledger(path);
@@ -100,13 +113,13 @@ Result<std::optional<LedgerFile>> find_own_ledger(const Session& session, const 
   return std::optional<LedgerFile>(std::move(found).value());
 }
 
-Result<LedgerFile> find_ledger(const Session& session, const Options& options) {
-  auto own = find_own_ledger(session, options);
+Result<LedgerFile> find_ledger(const Session& session, const Options& options, LogSink& log) {
+  auto own = find_own_ledger(session, options, log);
   if (!own) return own.error();
   if (*own) return std::move(**own);
   if (!options.cache_dir.empty())
-    if (const std::string other = newest_in(device_folder(options, session.device->info().name)); !other.empty())
-      return read_ledger(other);
+    for (const std::string& other : newest_first(device_folder(options, session.device->info().name)))
+      if (auto found = read_ledger(other)) return found;
   return Error{ErrorKind::usage, "--budget needs a ledger of this device: measure one with gloam cost " +
                                      options.scene + " --quick --out DIR, or name one with --ledger"};
 }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "engine/core/log.h"
 #include "engine/core/result.h"
 #include "modules/accuracy/outputs.h"
 #include "sandbox/options.h"
@@ -26,11 +27,12 @@ struct LedgerFile {
 };
 
 /// The scene's own ledger: that of --ledger (a file, or the folder that `cost` has written); else the one beside the
-/// scene; else the one in the cache for this scene and device. Input error for a file that is no ledger or has no
-/// combinations.
-[[nodiscard]] Result<std::optional<LedgerFile>> find_own_ledger(const Session& session, const Options& options);
+/// scene; else the one in the cache for this scene and device. Input error for a file of the first two kinds that is no
+/// ledger or has no combinations; one of the cache is then left out with a warning.
+[[nodiscard]] Result<std::optional<LedgerFile>> find_own_ledger(const Session& session, const Options& options,
+                                                                LogSink& log);
 
 /// The same, or else any ledger in the cache of this device. A usage error says how to measure one if there is none.
-[[nodiscard]] Result<LedgerFile> find_ledger(const Session& session, const Options& options);
+[[nodiscard]] Result<LedgerFile> find_ledger(const Session& session, const Options& options, LogSink& log);
 
 }  // namespace gloam

@@ -8,6 +8,7 @@
 
 #include "engine/core/hash.h"
 #include "engine/core/text/formatted.h"
+#include "engine/render/pipelines/pipeline_record.h"
 #include "sandbox/output/file_io.h"
 #include "sandbox/session/loading/scene_loading.h"
 #include "shaders/every/shaders.h"
@@ -30,10 +31,16 @@ std::string list_file(const Session& session, const Options& options) {
 
 }  // namespace
 
-void make_kept_pipelines(Session& session, const Options& options) {
+void make_kept_pipelines(Session& session, const Options& options, LogSink& log) {
   if (options.cache_dir.empty()) return;
-  const auto kept = read_text_file(list_file(session, options), ErrorKind::input);
-  if (kept) session.renderer->make_pipelines(*kept, every_shader());
+  const std::string path = list_file(session, options);
+  std::error_code fault;
+  if (!std::filesystem::is_regular_file(path, fault)) return;
+  const auto kept = read_text_file(path, ErrorKind::input);
+  if (kept && is_sound_record(*kept))
+    session.renderer->make_pipelines(*kept, every_shader());
+  else
+    log.warning((kept ? path + ": is damaged" : kept.error().message) + "; the list of pipelines is made again");
 }
 
 void keep_pipelines(Session& session, const Options& options, LogSink& log) {

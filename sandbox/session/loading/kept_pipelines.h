@@ -13,7 +13,7 @@ namespace gloam {
 
 /// Begins to make the pipelines that the scene's first picture has needed, with the same knobs. Does nothing if no list
 /// is kept. Before the scene is loaded.
-void make_kept_pipelines(Session& session, const Options& options);
+void make_kept_pipelines(Session& session, const Options& options, LogSink& log);
 
 /// After the first picture: keeps the list of its pipelines, if it is not kept already. Does nothing without a cache;
 /// if the list cannot be written, warns.

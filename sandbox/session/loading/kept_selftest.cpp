@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "sandbox/session/loading/kept_selftest.h"
 
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "engine/core/hash.h"
@@ -26,13 +28,16 @@ Status keep_selftest(const StabilityReport& report, const Options& options) {
 }
 
 std::optional<StabilityReport> find_selftest(const Options& options, const std::string& device,
-                                             const std::string& driver) {
+                                             const std::string& driver, LogSink& log) {
   if (options.cache_dir.empty()) return std::nullopt;
-  const auto text = read_text_file(selftest_file(options, device, driver), ErrorKind::input);
-  if (!text) return std::nullopt;
-  auto report = parse_stability_json(*text);
-  if (!report) return std::nullopt;
-  return std::move(report).value();
+  const std::string path = selftest_file(options, device, driver);
+  std::error_code fault;
+  if (!std::filesystem::exists(path, fault)) return std::nullopt;
+  const auto text = read_text_file(path, ErrorKind::input);
+  auto report = text ? parse_stability_json(*text) : text.error();
+  if (report) return std::move(report).value();
+  log.warning((text ? path + ": is " : std::string()) + report.error().message + "; the report has no self-test");
+  return std::nullopt;
 }
 
 }  // namespace gloam

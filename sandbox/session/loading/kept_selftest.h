@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "engine/core/log.h"
 #include "engine/core/result.h"
 #include "modules/accuracy/stability.h"
 #include "sandbox/options.h"
@@ -16,6 +17,6 @@ namespace gloam {
 
 /// The self-test that was kept for a device and driver; none if there is none that can be read.
 [[nodiscard]] std::optional<StabilityReport> find_selftest(const Options& options, const std::string& device,
-                                                           const std::string& driver);
+                                                           const std::string& driver, LogSink& log);
 
 }  // namespace gloam

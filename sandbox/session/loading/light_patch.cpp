@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/text/json_nesting.h"
+#include "engine/core/text/plain_text.h"
 #include "engine/ecs/view.h"
 #include "engine/scene/components.h"
 #include "engine/scene/resources.h"
@@ -20,6 +22,12 @@ namespace gloam {
 namespace {
 
 constexpr double kLargest = 1e9;
+
+/// A name from the file for a message.
+std::string in_single_quotes(std::string_view name) {
+  constexpr std::size_t kMostBytes = 80;
+  return "'" + one_line(name, kMostBytes) + "'";
+}
 
 /// Reads the members of one light. The first fault is kept.
 class LightReader {
@@ -82,7 +90,7 @@ class LightReader {
     return std::nullopt;
   }
   void fail(const std::string& name, const std::string& fault) {
-    if (status_.ok()) status_ = Error{ErrorKind::usage, place_ + ": '" + name + "' " + fault};
+    if (status_.ok()) status_ = Error{ErrorKind::usage, place_ + ": " + in_single_quotes(name) + " " + fault};
   }
 
   const Json& json_;
@@ -133,18 +141,21 @@ void apply(World& world, Entity entity, const LightChange& change) {
 
 Result<LightPatch> parse_light_patch(std::string_view text, std::string_view source) {
   const std::string place(source);
+  if (nests_too_deep(text)) return Error{ErrorKind::usage, place + ": " + too_deep_text()};
   const Json json = Json::parse(text, nullptr, false);
   if (!json.is_object()) return Error{ErrorKind::usage, place + ": is not a JSON object"};
   for (const auto& [name, value] : json.items())
-    if (name != "version" && name != "lights") return Error{ErrorKind::usage, place + ": '" + name + "' is unknown"};
+    if (name != "version" && name != "lights")
+      return Error{ErrorKind::usage, place + ": " + in_single_quotes(name) + " is unknown"};
   if (json.value("version", Json()) != 1) return Error{ErrorKind::usage, place + ": 'version' is not 1"};
   const auto lights = json.find("lights");
   if (lights == json.end() || !lights->is_object())
     return Error{ErrorKind::usage, place + ": 'lights' is not an object"};
   LightPatch patch;
   for (const auto& [name, members] : lights->items()) {
-    if (!members.is_object()) return Error{ErrorKind::usage, place + ": light '" + name + "' is not an object"};
-    LightReader reader(members, place + ": light '" + name + "'");
+    if (!members.is_object())
+      return Error{ErrorKind::usage, place + ": light " + in_single_quotes(name) + " is not an object"};
+    LightReader reader(members, place + ": light " + in_single_quotes(name));
     LightChange& change = patch.lights[name];
     reader.read("intensity", change.intensity);
     reader.read("color", change.color);

@@ -116,6 +116,25 @@ TEST(SealedFile, removes_what_killed_writers_of_the_same_file_have_left) {
             (std::set<std::string>{"sealed", "other", of_other_host, of_this_process}));
 }
 
+TEST(SealedFile, a_signal_whose_handler_removes_unfinished_files_leaves_none) {
+  const test::TestFolder folder;
+  const std::string path = folder.path() + "/sealed";
+  ASSERT_TRUE(write_sealed(path, "id", "old").ok());
+  const pid_t process = start_process([&path] {
+    std::signal(SIGXFSZ, [](int number) {  // in the middle of a file
+      remove_unfinished_files();
+      std::signal(number, SIG_DFL);
+      std::raise(number);
+    });
+    const rlimit limit{8192, 8192};
+    if (setrlimit(RLIMIT_FSIZE, &limit) != 0) return 2;
+    return write_sealed(path, "id", std::string(1'000'000, 'x')).ok() ? 0 : 1;
+  });
+  EXPECT_EQ(status_of_process(process), -1) << "killed";
+  EXPECT_EQ(read_sealed(path, "id"), "old");
+  EXPECT_EQ(names_in(folder.path()), std::vector<std::string>{"sealed"});
+}
+
 TEST(SealedFile, that_a_link_names_is_replaced_and_the_link_stays) {
   const test::TestFolder folder;
   const std::string path = folder.path() + "/sealed", link = folder.path() + "/link";

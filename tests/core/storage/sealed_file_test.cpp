@@ -53,5 +53,39 @@ TEST(SealedFile, of_another_identity_cut_short_or_altered_is_not_read) {
   }
 }
 
+TEST(SealedFile, that_is_not_read_has_a_reason) {
+  const test::TestFolder folder;
+  const std::string path = folder.path() + "/sealed";
+  const auto fault_of = [](const std::string& file) {
+    SealedFault fault = SealedFault::none;
+    EXPECT_FALSE(read_sealed(file, "id", &fault));
+    return fault;
+  };
+  EXPECT_EQ(fault_of(path), SealedFault::absent);
+  EXPECT_EQ(fault_of(folder.path()), SealedFault::not_a_file);
+  for (const std::string& text : {std::string(), std::string(4096, '\0'), std::string("gloam sealed 1 ")}) {
+    ASSERT_TRUE(write_whole_file(path, text).ok());
+    EXPECT_EQ(fault_of(path), SealedFault::damaged) << text;
+  }
+  ASSERT_TRUE(write_sealed(path, "id 2", "payload").ok());
+  EXPECT_EQ(fault_of(path), SealedFault::other);
+  ASSERT_TRUE(write_sealed(path, "id", "").ok());
+  SealedFault fault = SealedFault::damaged;
+  EXPECT_EQ(read_sealed(path, "id", &fault), "");
+  EXPECT_EQ(fault, SealedFault::none);
+}
+
+TEST(SealedFile, a_link_to_a_file_that_is_not_there_makes_the_file) {
+  const test::TestFolder folder;
+  std::filesystem::create_directory(folder.path() + "/there");
+  std::filesystem::create_symlink("second", folder.path() + "/first");
+  std::filesystem::create_symlink("there/file", folder.path() + "/second");
+  ASSERT_TRUE(write_whole_file(folder.path() + "/first", "bytes").ok());
+  EXPECT_EQ(bytes_of(folder.path() + "/there/file"), "bytes");
+  EXPECT_TRUE(std::filesystem::is_symlink(folder.path() + "/second"));
+  std::filesystem::create_symlink("round", folder.path() + "/round");
+  EXPECT_FALSE(write_whole_file(folder.path() + "/round", "bytes").ok());
+}
+
 }  // namespace
 }  // namespace gloam

@@ -95,6 +95,8 @@ static void try_wrong_arguments(gloam_engine* engine, gloam_world* world, const 
   expect("a size of 3", gloam_engine_create(&info, &other), GLOAM_USAGE, "gloam_engine_info::size is 3");
   info.size = sizeof(info) + 8;
   expect("a structure of the future", gloam_engine_create(&info, &other), GLOAM_USAGE, "this library knows up to");
+  info.size = sizeof(info) - 1;
+  expect("a size inside of a member", gloam_engine_create(&info, &other), GLOAM_USAGE, "gloam_engine_info::size");
   info.size = sizeof(info);
   info.device = "no such device";
   expect("an unknown device", gloam_engine_create(&info, &other), GLOAM_NO_DEVICE, "no such device");
@@ -188,6 +190,7 @@ static void try_a_file(gloam_engine* engine, const gloam_view* view) {
   FILE* file = fopen("tiny.gltf", "wb");
   fwrite(text, 1, sizeof(text) - 1, file);
   fclose(file);
+  expect("an engine as a world", gloam_world_destroy((gloam_world*)engine), GLOAM_USAGE, "no world that exists");
   expect("a second world", gloam_world_create(engine, &world), GLOAM_OK, "");
   expect("a file", gloam_world_load(world, "tiny.gltf"), GLOAM_OK, "");
   expect("its camera", gloam_world_find(world, "camera", "eye", &through.camera), GLOAM_OK, "");
@@ -225,7 +228,9 @@ int main(void) {
   try_a_file(engine, &view);
   if (gloam_engine_validation_messages(engine) != 0) puts("validation is not silent"), ++faults;
   expect("the end of a world", gloam_world_destroy(world), GLOAM_OK, "");
+  expect("a world that has ended", gloam_render(world, &view, 1), GLOAM_USAGE, "world is no world that exists");
   expect("the end of an engine", gloam_engine_destroy(engine), GLOAM_OK, "");
+  expect("an engine that has ended", gloam_engine_destroy(engine), GLOAM_USAGE, "engine is no engine that exists");
   printf("gloam %s, interface %u: %d faults\n", gloam_version(), (unsigned)gloam_interface_version(), faults);
   return faults == 0 ? 0 : 1;
 }

@@ -78,6 +78,14 @@ TEST(ledger_json, says_what_is_wrong_with_a_text) {
   EXPECT_FALSE(parse_row_json("{}").ok());
 }
 
+TEST(ledger_json, refuses_hostile_texts_in_one_short_line) {
+  const std::string deep = R"({"version": 1, "cameras": )" + std::string(200000, '[') + std::string(200000, ']') + "}";
+  EXPECT_THAT(parse_ledger_json(deep).error().message, HasSubstr("nested deeper than 96 levels"));
+  const std::string open = "{\"a\": \"\n" + std::string(100000, 'x');  // a string that is not closed
+  EXPECT_LT(parse_ledger_json(open).error().message.size(), 400u);
+  EXPECT_EQ(parse_ledger_json(open).error().message.find('\n'), std::string::npos);
+}
+
 TEST(ledger_json, reads_ledgers_of_the_same_version_without_later_keys) {
   auto json = nlohmann::json::parse(ledger_json(full_ledger()));
   json.erase("clock_meaning");

@@ -201,6 +201,20 @@ TEST_F(Knobs, json_sets_a_choice_that_is_called_true) {
   EXPECT_EQ(knob_number(knobs_, "test.flag"), 1.0);
 }
 
+TEST_F(Knobs, json_that_is_nested_too_deep_is_refused) {
+  const std::string deep = R"({"shadows.maps":)" + std::string(200000, '[') + std::string(200000, ']') + "}";
+  EXPECT_EQ(message(knobs_.set_from_json(deep, "k.json")), "k.json: is nested deeper than 96 levels");
+}
+
+TEST_F(Knobs, faults_are_one_line_whatever_was_given) {
+  const std::string text = "a\nb\x01" + std::string(10000, 'x');
+  for (const Status& status : {knobs_.set(text, "1"), knobs_.set("grass.reach", text), knobs_.set_assignment(text),
+                               knobs_.set_from_json("{\"a\\nb\": 1}", "k.json")}) {
+    EXPECT_LT(message(status).size(), 400u) << message(status);
+    EXPECT_EQ(message(status).find_first_of("\n\x01"), std::string::npos) << message(status);
+  }
+}
+
 TEST_F(Knobs, json_faults_name_their_source) {
   for (const char* text : {"", "[]", "3", "{", "{\"a\":}", "null", "{\"shadows.maps\": 3} x"}) {
     EXPECT_EQ(message(knobs_.set_from_json(text, "k.json")), "k.json: is not a JSON object of knobs") << text;

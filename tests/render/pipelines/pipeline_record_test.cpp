@@ -6,10 +6,13 @@
 
 #include <array>
 #include <chrono>
+#include <span>
 #include <string>
 #include <thread>
+#include <utility>
 #include <variant>
 
+#include "engine/core/hash.h"
 #include "engine/gpu/pipeline_hash.h"
 #include "engine/gpu/recording/device.h"
 #include "engine/render/pipelines/pipelines.h"
@@ -89,6 +92,23 @@ TEST(PipelineRecord, a_damaged_record_is_empty) {
     std::string damaged = record;
     damaged[at] = static_cast<char>(damaged[at] ^ 4);
     EXPECT_TRUE(parse_pipeline_record(damaged, kBoth, names).empty()) << at;
+  }
+}
+
+TEST(PipelineRecord, numbers_that_are_no_value_of_their_type_are_refused) {
+  const std::string record = pipeline_record({compute(), graphics()});
+  for (const auto& [sound, wrong] : {std::pair<std::string, std::string>{R"("blend":2)", R"("blend":5)"},
+                                     {R"("cull":0)", R"("cull":-1)"},
+                                     {R"("depth_compare":5)", R"("depth_compare":7)"},
+                                     {R"("depth_format":24)", R"("depth_format":25)"},
+                                     {R"("type":3)", R"("type":260)"}}) {
+    std::string body = record.substr(record.find('\n') + 1);
+    ASSERT_NE(body.find(sound), std::string::npos) << sound << " in " << body;
+    body.replace(body.find(sound), sound.size(), wrong);
+    const std::uint64_t checksum = hash_bytes(std::as_bytes(std::span(body)));
+    PipelineNames names;
+    const std::string written = R"({"pipelines":1,"checksum":)" + std::to_string(checksum) + "}\n" + body;
+    EXPECT_TRUE(parse_pipeline_record(written, kBoth, names).empty()) << wrong;
   }
 }
 

@@ -69,11 +69,11 @@ PipelineCache::PipelineCache(Context& context, const std::string& directory) : c
   if (!directory.empty()) {
     file_ = fs::path(directory) / ("pipelines-" + hex(context.physical.cache_uuid) + ".bin");
     std::error_code absent;
-    if (fs::exists(file_, absent)) {
+    if (fs::is_regular_file(file_, absent)) {  // reading a folder throws
       file = read_file(file_);
       data = checked(context.physical, file);
       if (data.empty())
-        context.log().info("Pipeline cache " + file_.string() + " is damaged or foreign; starting anew");
+        context.log().warning(file_.string() + ": is damaged or of another driver; the pipeline cache is made again");
     }
   }
   VkPipelineCacheCreateInfo info = {.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO,

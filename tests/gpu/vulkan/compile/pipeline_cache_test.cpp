@@ -54,7 +54,7 @@ class PipelineCacheFile : public ::testing::Test {
   std::atomic<int> complaints_ = 0;
   std::atomic<int> warnings_ = 0;
   FunctionLog log_{[this](LogLevel level, std::string_view line) {
-    if (line.find("damaged or foreign") != std::string_view::npos) ++complaints_;
+    if (line.find("damaged or of another driver") != std::string_view::npos) ++complaints_;
     if (level >= LogLevel::warning) ++warnings_;
   }};
 };

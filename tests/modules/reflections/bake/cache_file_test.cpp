@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/storage/byte_stream.h"
 #include "tests/modules/reflections/bake/bake_world.h"
 #include "tests/support/temporary_folder.h"
 
@@ -119,6 +120,24 @@ TEST_F(CacheFile, is_read_into_a_world_with_other_entity_indices) {
   ReflectionCaptures expected = other.captures();
   for (std::size_t i = 0; i < expected.lights.size(); ++i) expected.lights[i].emitted = captures.lights[i].emitted;
   expect_equal(*loaded, expected);
+}
+
+/// Captures without anything but proxy layers of this form, and no texels.
+std::string bytes_with_layers(std::uint32_t side, std::uint32_t mips, std::uint32_t count) {
+  constexpr int kOtherCounts = 11;
+  ByteWriter bytes;
+  bytes.value(std::uint64_t{1});
+  bytes.value(1.0f);
+  for (const std::uint32_t number : {side, mips, count}) bytes.value(number);
+  for (int i = 0; i < kOtherCounts; ++i) bytes.value(std::uint32_t{0});
+  return bytes.take();
+}
+
+TEST_F(CacheFile, layers_of_more_texels_than_numbers_reach_are_refused) {
+  ASSERT_TRUE(decode_captures(scene.world, bytes_with_layers(0, 0, 0)));
+  EXPECT_FALSE(decode_captures(scene.world, bytes_with_layers(1u << 16, 1, 1u << 30))) << "2^64 half floats";
+  EXPECT_FALSE(decode_captures(scene.world, bytes_with_layers(3, 1, 0))) << "no power of two";
+  EXPECT_FALSE(decode_captures(scene.world, bytes_with_layers(4, 4, 0))) << "4 texels have 3 mips";
 }
 
 TEST_F(CacheFile, that_is_damaged_cut_short_or_of_other_content_is_told_and_replaced) {

@@ -100,6 +100,14 @@ TEST_F(LightPatchTest, faults_are_usage_errors_that_name_the_place) {
   }
 }
 
+TEST_F(LightPatchTest, text_that_is_nested_too_deep_is_a_usage_error) {
+  const std::string deep = std::string(200000, '[') + std::string(200000, ']');
+  const auto patch =
+      parse_light_patch(R"({"version": 1, "lights": {"lamp": {"intensity": )" + deep + "}}}", "file.json");
+  ASSERT_FALSE(patch.ok());
+  EXPECT_EQ(patch.error().message, "file.json: is nested deeper than 96 levels");
+}
+
 TEST_F(LightPatchTest, unknown_and_ambiguous_lights_change_nothing) {
   LightPatch patch;
   patch.lights["lamp"] = {.intensity = 40.0f};

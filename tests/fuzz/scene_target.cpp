@@ -1,9 +1,7 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "tests/fuzz/loader_target.h"
+#include "tests/fuzz/scene_target.h"
 
-#include <cstdlib>
-#include <iostream>
 #include <memory>
 
 #include "engine/jobs/executor.h"
@@ -11,6 +9,7 @@
 #include "engine/scene/gltf/import.h"
 #include "engine/scene/systems.h"
 #include "modules/module_list/module_list.h"
+#include "tests/fuzz/scene_seeds.h"
 #include "tests/support/gltf_files.h"
 
 namespace gloam::fuzz {
@@ -24,7 +23,6 @@ struct Loader {
   KeyRegistry registry = make_key_registry(modules);
   std::unique_ptr<JobExecutor> executor = make_serial_executor();
   test::TemporaryFolder folder;
-  std::string path = folder.path() + "/" + kFileName;
 };
 
 Loader& loader() {
@@ -32,39 +30,26 @@ Loader& loader() {
   return loader;
 }
 
-std::string broken_promise(const Error& error) {
-  if (error.kind != ErrorKind::input) return "the error is not an input error: " + error.message;
-  if (!error.message.starts_with(kFileName)) return "the error does not name the file: " + error.message;
-  if (error.message.find('\n') != std::string::npos) return "the error is not one line: " + error.message;
-  return {};
-}
-
 }  // namespace
 
-const std::string& scene_path() { return loader().path; }
-
-LoadOutcome load_bytes(std::span<const std::uint8_t> bytes) {
+Outcome load_scene_bytes(Input bytes) {
   Loader& shared = loader();
   const std::string path = shared.folder.write(kFileName, bytes);
   World world;
   for (const auto& module : shared.modules) module->register_components(world);
   const auto info = import_gltf(path, {}, shared.registry, world, *shared.executor, null_log());
-  if (!info.ok()) return {false, info.error().message, broken_promise(info.error())};
+  if (!info.ok()) {
+    if (!info.error().message.starts_with(kFileName)) return broken("the error does not begin with the file's name");
+    return refused(info.error(), ErrorKind::input);
+  }
   Schedule schedule;
   add_scene_systems(schedule);
   schedule.run(Stage::world, world, *shared.executor);
   if (const std::string fault = asset_fault(world.resource<SceneAssets>()); !fault.empty())
-    return {true, {}, "what was loaded cannot be drawn: " + fault};
-  return {true, {}, {}};
+    return broken("what was loaded cannot be drawn: " + fault);
+  return accepted();
 }
+
+Target scene_target() { return {"scene", {{"scene file", load_scene_bytes, scene_seeds}}}; }
 
 }  // namespace gloam::fuzz
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const gloam::fuzz::LoadOutcome outcome = gloam::fuzz::load_bytes({data, size});
-  if (outcome.fault.empty()) return 0;
-  std::cerr << outcome.fault << '\n';
-  std::abort();
-}

@@ -2,14 +2,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
 #include <vector>
+
+#include "tests/fuzz/target.h"
 
 namespace gloam::fuzz {
 
-using Bytes = std::vector<std::uint8_t>;
-
 /// Small sound scene files, .gltf and .glb, that together use every part of the loader.
-[[nodiscard]] std::vector<Bytes> seeds();
+[[nodiscard]] std::vector<Bytes> scene_seeds();
 
 }  // namespace gloam::fuzz

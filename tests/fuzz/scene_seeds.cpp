@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "tests/fuzz/seeds.h"
+#include "tests/fuzz/scene_seeds.h"
 
 #include <meshoptimizer.h>
 
@@ -168,11 +168,9 @@ GltfText draco_and_webp() {
   return gltf;
 }
 
-Bytes bytes_of(const std::string& text) { return {text.begin(), text.end()}; }
-
 }  // namespace
 
-std::vector<Bytes> seeds() {
+std::vector<Bytes> scene_seeds() {
   return {bytes_of(character().text()),  character().glb(),
           bytes_of(landscape().text()),  landscape().glb(),
           bytes_of(compressed().text()), bytes_of(draco_and_webp().text()),
