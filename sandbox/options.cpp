@@ -13,6 +13,7 @@
 
 #include "engine/core/env.h"
 #include "engine/core/text/nearest_name.h"
+#include "engine/core/text/plain_text.h"
 
 namespace gloam {
 namespace {
@@ -220,7 +221,11 @@ std::vector<CommandApp> add_commands(CLI::App& root, Options& options, RawTexts&
   return commands;
 }
 
-Error usage(std::string message) { return {ErrorKind::usage, std::move(message)}; }
+/// Arguments may hold any bytes.
+Error usage(std::string_view message) {
+  constexpr std::size_t kMostBytes = 2000;
+  return {ErrorKind::usage, one_line(message, kMostBytes)};
+}
 
 Status read_scale(const std::string& text, double& scale) {
   if (text == "auto") {

@@ -21,7 +21,7 @@ void SceneNames::add(std::string_view kind, std::string_view name, Entity entity
 }
 
 Result<Entity> SceneNames::find(std::string_view kind, std::string_view name) const {
-  const std::string what(kind);
+  const std::string what = one_line(kind);
   const auto unknown = [&](const std::vector<std::string>& names) {
     return Error{ErrorKind::usage, "no " + what + " is named " + in_quotes(name) + "; " + valid_names(name, names)};
   };

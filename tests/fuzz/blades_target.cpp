@@ -12,16 +12,17 @@
 namespace gloam::fuzz {
 namespace {
 
-/// The types as a file, with all digits.
+/// The types as a file, with all digits. Names are numbers: those that were read may hold blanks.
 std::string written(const std::vector<BladeType>& types) {
   std::string text;
+  int number_of_type = 1;
   const auto add = [&text](const char* before, float number) {
     char digits[40];
     std::snprintf(digits, sizeof(digits), "%s%.9g", before, static_cast<double>(number));
     text += digits;
   };
   for (const BladeType& type : types) {
-    text += type.name;
+    text += std::to_string(number_of_type++);
     for (const float number : {type.share, type.length_scale, type.width_scale, type.stiffness, type.taper})
       add(" ", number);
     add(" damping=", type.damping);

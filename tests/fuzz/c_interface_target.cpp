@@ -47,8 +47,9 @@ class Source {
   /// Mostly between 0 and 12, otherwise a number at which something may end.
   double number() {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    constexpr std::array kOdd = {-1.0,  -0.0,  kInfinity, -kInfinity, std::nan(""), 3.4e38, -3.4e38,  1e300,
-                                 1e-45, 1e-38, 1e-9,      16777217.0, 65504.0,      1e9,    -0.00001, 3.14159265};
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+    constexpr std::array kOdd = {-1.0,  -0.0,  kInfinity, -kInfinity, kNan,    3.4e38, -3.4e38,  1e300,
+                                 1e-45, 1e-38, 1e-9,      16777217.0, 65504.0, 1e9,    -0.00001, 3.14159265};
     const std::uint8_t chosen = byte();
     return chosen < 192 ? chosen / 16.0 : kOdd[chosen % kOdd.size()];
   }
@@ -372,7 +373,7 @@ void Calls::render() {
   std::array<gloam_view, 2> views = {gloam_view(GLOAM_VIEW_INIT), gloam_view(GLOAM_VIEW_INIT)};
   std::array<std::string, 2> names;
   gloam_host_geometry geometry = GLOAM_HOST_GEOMETRY_INIT;
-  const std::uint32_t count = source_.byte() % 3;
+  std::uint32_t count = source_.byte() % 3;
   bad = bad || count == 0;
   for (std::uint32_t i = 0; i < 2; ++i) {
     gloam_view& view = views[i];
@@ -381,6 +382,7 @@ void Calls::render() {
     view.width = kSides[source_.mostly_first(kSides.size())];
     view.height = kSides[source_.mostly_first(kSides.size())];
     if (source_.mostly_first(2) == 1) view.camera = entity(of, wrong);
+    wrong = wrong && view.camera != 0;  // 0 is no camera
     if (const double* pose = matrix(); pose != nullptr) std::copy_n(pose, 16, view.matrix);
     if (source_.mostly_first(2) == 1) view.fov_y = source_.number_f();
     if (source_.mostly_first(2) == 1) view.near_m = source_.number_f();
@@ -390,13 +392,11 @@ void Calls::render() {
     wrong = wrong || view.width == 0 || view.height == 0 || view.width > 65536 || view.height > 65536;
     wrong = wrong || view.id >= 1u << 26 || view.geometry != nullptr;
     if (views[0].size < sizeof(gloam_view) && i == 0) wrong = views[0].size < 8 || views[0].size % 8 != 0;
+    // A smaller structure would be followed by the next one at once.
+    if (i == 0 && view.size < sizeof(gloam_view)) count = std::min(count, 1u);
     if (i < count) bad = bad || wrong;
   }
-  // A smaller structure is followed by the next one at once.
-  const bool whole = views[0].size == sizeof(gloam_view);
-  expect_if(gloam_render(of.handle, count == 0 && source_.byte() % 2 == 0 ? nullptr : views.data(),
-                         whole ? count : std::min(count, 1u)),
-            bad);
+  expect_if(gloam_render(of.handle, count == 0 && source_.byte() % 2 == 0 ? nullptr : views.data(), count), bad);
 }
 
 void Calls::read() {

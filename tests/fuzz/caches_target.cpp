@@ -9,6 +9,7 @@
 #include "engine/core/hash.h"
 #include "engine/ecs/world.h"
 #include "engine/render/pipelines/pipeline_record.h"
+#include "engine/scene/gltf/import.h"
 #include "modules/lights/components.h"
 #include "modules/module_list/module_list.h"
 #include "modules/particles/bake.h"
@@ -26,6 +27,7 @@ struct CachedWorld {
   std::vector<Entity> proxies, probes, lights, emitters;
 
   CachedWorld() {
+    prepare_scene_world(world);
     for (const auto& module : make_all_modules()) module->register_components(world);
     for (int i = 0; i < 4; ++i) {
       lights.push_back(world.create(WorldTransform{}, Light{}));

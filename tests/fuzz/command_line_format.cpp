@@ -53,6 +53,8 @@ Arguments written(const Options& options) {
     add(name, *value);
   if (options.validate) arguments.push_back("--validate");
   if (options.quiet) arguments.push_back("--quiet");
+  if (options.list && (options.command == Command::bench || options.command == Command::selftest))
+    arguments.push_back("--list");
   if (options.command == Command::cost) {
     for (const auto& [name, value] :
          {std::pair{"--knobs", &options.knobs}, {"--cameras", &options.cameras}, {"--list", &options.scene_list}})

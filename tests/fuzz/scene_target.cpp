@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/fuzz/scene_target.h"
 
+#include <filesystem>
 #include <memory>
 
 #include "engine/jobs/executor.h"
@@ -34,6 +35,8 @@ Loader& loader() {
 
 Outcome load_scene_bytes(Input bytes) {
   Loader& shared = loader();
+  // ext4 waits for the disk when a file is replaced in its place.
+  std::filesystem::remove(shared.folder.path() + "/" + kFileName);
   const std::string path = shared.folder.write(kFileName, bytes);
   World world;
   for (const auto& module : shared.modules) module->register_components(world);

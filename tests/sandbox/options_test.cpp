@@ -214,6 +214,21 @@ TEST(Options, the_help_of_bench_tells_one_batch_from_separate_jobs) {
   EXPECT_NE(help.find("jobs.spawn creates, runs and destroys"), std::string::npos) << help;
 }
 
+TEST(Options, faults_are_one_short_line_whatever_was_given) {
+  const std::string text = "a\nb\x01" + std::string(100000, 'x');
+  for (const Arguments& arguments : {Arguments{text},
+                                     {"render", "--size", text},
+                                     {"render", "a.glb", "--set", text},
+                                     {"knobs", "--" + text},
+                                     {"render", "a.glb", "--budget", text + "=5ms", "--budget", text + "=5ms"},
+                                     {"play", "--frames", text}}) {
+    const auto outcome = parse(arguments);
+    ASSERT_FALSE(outcome.ok());
+    EXPECT_LT(outcome.error().message.size(), 2100u);
+    EXPECT_EQ(outcome.error().message.find_first_of("\n\x01"), std::string::npos) << outcome.error().message;
+  }
+}
+
 TEST(Options, sizes_are_two_numbers_in_range) {
   for (const char* size :
        {"0x10", "10x0", "10", "10x", "x10", "10x10x10", "-1x5", "10 x10", "99999x10", "4294967297x10", "axb"})

@@ -31,6 +31,11 @@ TEST(SceneNames, an_absent_name_is_a_usage_error_that_lists_the_valid_ones) {
   EXPECT_EQ(names.find("light", "roof").error().message, "no light is named \"roof\"; there are none");
 }
 
+TEST(SceneNames, a_kind_of_any_text_is_told_in_one_line) {
+  const std::string message = SceneNames().find("\n", "b").error().message;
+  EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+}
+
 TEST(SceneNames, a_misspelt_name_is_answered_with_the_nearest_one_before_the_list) {
   SceneNames names;
   names.add("camera", "court", {1, 1});

@@ -188,6 +188,7 @@ Status write_whole_file(const std::string& path, std::string_view bytes) {
   std::error_code fault;
   // A link stays: the file that it names is replaced.
   const std::filesystem::path target = without_links(path);
+  if (std::filesystem::is_symlink(target, fault)) return failed(std::generic_category().message(ELOOP));
   const std::filesystem::path folder = target.parent_path();
   if (!folder.empty()) std::filesystem::create_directories(folder, fault);
   if (!folder.empty() && fault) return failed(fault.message());

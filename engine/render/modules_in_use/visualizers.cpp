@@ -10,6 +10,7 @@
 
 #include "engine/core/assert.h"
 #include "engine/core/text/nearest_name.h"
+#include "engine/core/text/plain_text.h"
 #include "engine/scene/resources.h"
 
 namespace gloam {
@@ -77,7 +78,7 @@ Status check_visualizer_name(const ModuleList& modules, std::string_view name) {
     list += (list.empty() ? "" : ", ") + info.name + (info.argument.empty() ? "" : ":" + info.argument);
   }
   return Error{ErrorKind::usage,
-               "unknown view " + std::string(name) + "; " + did_you_mean(stem, names) + "there are " + list};
+               "unknown view " + one_line(name) + "; " + did_you_mean(stem, names) + "there are " + list};
 }
 
 Status check_visualizer(const ModuleList& modules, const KnobRegistry& knobs, const World& world,

@@ -117,7 +117,8 @@ std::optional<StabilityRange> range_within_bound(const StabilityCheck& check) {
       points = 0;
       continue;
     }
-    run = {run ? run->low : point.at, point.at};
+    // The points of a file may descend.
+    run = {std::min(run ? run->low : point.at, point.at), std::max(run ? run->high : point.at, point.at)};
     ++points;
     const bool overlaps = !check.promised || (run->low <= check.promised->high && run->high >= check.promised->low);
     if (!overlaps || points <= widest_points) continue;

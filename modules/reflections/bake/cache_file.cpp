@@ -230,7 +230,8 @@ std::optional<ReflectionCaptures> load_captures(const std::string& path, const W
   std::optional<ReflectionCaptures> captures;
   if (const auto bytes = read_sealed(path, identity_of(content), &fault)) captures = decode_captures(world, *bytes);
   if (captures && captures->content == content) return captures;
-  if (fault == SealedFault::absent) return std::nullopt;
+  // What is no file cannot be replaced, and saving the captures says so.
+  if (fault == SealedFault::absent || fault == SealedFault::not_a_file) return std::nullopt;
   if (fault == SealedFault::other) {
     log.write_from("reflections", LogLevel::info, path + ": is not used: it is of another state of the scene");
     return std::nullopt;

@@ -45,7 +45,8 @@ Status ensure_particle_light(Session& session, const Options& options, LogSink& 
       }
       fault = SealedFault::damaged;
     }
-    if (fault != SealedFault::absent && fault != SealedFault::other)
+    // Of what is no file, save says that it cannot be replaced.
+    if (fault == SealedFault::unreadable || fault == SealedFault::damaged)
       log.warning(path + ": " + std::string(text_of(fault)) + "; the particle light is made again");
   }
   current = bake_particle_light(

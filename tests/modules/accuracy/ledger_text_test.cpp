@@ -86,6 +86,16 @@ TEST(ledger_json, refuses_hostile_texts_in_one_short_line) {
   EXPECT_EQ(parse_ledger_json(open).error().message.find('\n'), std::string::npos);
 }
 
+TEST(ledger_json, refuses_a_point_without_the_errors_that_choose_it) {
+  const auto sound = nlohmann::json::parse(ledger_json(full_ledger()));
+  auto json = sound;
+  json["points"][0].erase("whole_frame");
+  EXPECT_THAT(parse_ledger_json(json.dump()).error().message, HasSubstr("whole_frame"));
+  json = sound;
+  json["points"][0]["error"].erase("flip");
+  EXPECT_THAT(parse_ledger_json(json.dump()).error().message, HasSubstr("flip"));
+}
+
 TEST(ledger_json, reads_ledgers_of_the_same_version_without_later_keys) {
   auto json = nlohmann::json::parse(ledger_json(full_ledger()));
   json.erase("clock_meaning");

@@ -52,6 +52,7 @@ TEST(Stability, the_range_is_the_widest_run_of_points_that_keep_the_bound) {
   const auto range = range_within_bound(curve({{0.1, 0.9}, {1, 0.1}, {10, 0.2}, {100, 0.5}, {1e3, 0.6}, {1e4, 0.1}}));
   ASSERT_TRUE(range);
   EXPECT_EQ(*range, (StabilityRange{1.0, 100.0}));
+  EXPECT_EQ(range_within_bound(curve({{10, 0.2}, {1, 0.1}})), (StabilityRange{1.0, 10.0})) << "points that descend";
   EXPECT_FALSE(range_within_bound(curve({{1, 0.9}, {10, kNan}})));
   EXPECT_FALSE(range_within_bound(curve({{1e3, 0.1}, {1e4, 0.1}}))) << "it does not reach what is promised";
   EXPECT_FALSE(range_within_bound(curve({})));

@@ -67,6 +67,13 @@ TEST_F(VisualizersTest, those_of_the_engine_have_codes_in_the_order_of_the_list)
   EXPECT_EQ(engine_visualizer_code("plain"), 0u);
 }
 
+TEST_F(VisualizersTest, faults_are_one_line_whatever_the_name_is) {
+  for (const char* name : {"\n", "a\x01", "\n:\n", "normal:\n"}) {
+    EXPECT_FALSE(fault(name).empty()) << name;
+    EXPECT_EQ(fault(name).find_first_of("\n\x01"), std::string::npos) << fault(name);
+  }
+}
+
 TEST_F(VisualizersTest, names_arguments_and_knobs_are_checked) {
   EXPECT_EQ(fault("none"), "");
   EXPECT_EQ(fault("normal"), "");

@@ -69,5 +69,11 @@ TEST(SceneList, every_entry_is_in_one_shard) {
   EXPECT_TRUE(in_shard({2, 3}, 1));
 }
 
+TEST(SceneList, faults_are_one_line_whatever_a_word_holds) {
+  const auto entries = parse_scene_list("-\x01\x02 a.glb\n", "list.txt");
+  ASSERT_FALSE(entries.ok());
+  EXPECT_EQ(entries.error().message.find_first_of("\x01\x02"), std::string::npos) << entries.error().message;
+}
+
 }  // namespace
 }  // namespace gloam
