@@ -55,7 +55,8 @@ std::string folder_name(const std::string& scene, const std::string& text) {
 
 std::optional<std::string> fault_of(const std::vector<std::string>& words) {
   constexpr std::array kOfTheSweep = {"--out", "--list", "--shard", "--merge"};
-  if (words.front().starts_with('-')) return "begins with " + one_line(words.front()) + "; a line is a scene, then its options";
+  if (words.front().starts_with('-'))
+    return "begins with " + one_line(words.front()) + "; a line is a scene, then its options";
   for (const std::string& word : words) {
     const std::string name = word.substr(0, word.find('='));
     if (std::ranges::find(kOfTheSweep, name) != kOfTheSweep.end()) return name + " is no option of one scene";

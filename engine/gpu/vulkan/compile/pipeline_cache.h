@@ -9,7 +9,7 @@
 
 namespace gloam::gpu::vulkan {
 
-/// A VkPipelineCache that is kept in one file per device and driver. A damaged file, or one of another driver, is
+/// A VkPipelineCache that is kept in one file per device and driver. A warning tells of a damaged file, which is
 /// ignored. If the directory cannot be written, only a warning is logged.
 class PipelineCache {
  public:

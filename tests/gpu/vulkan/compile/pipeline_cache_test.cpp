@@ -76,13 +76,23 @@ TEST_F(PipelineCacheFile, counts_as_absent_when_damaged_and_is_written_anew) {
   std::string flipped = whole;
   flipped[flipped.size() / 2] = static_cast<char>(flipped[flipped.size() / 2] ^ 1);
   for (const std::string& damaged : {std::string(), whole.substr(0, whole.size() - 1), whole + "x", flipped}) {
-    complaints_ = 0;
+    complaints_ = warnings_ = 0;
     std::ofstream(file, std::ios::binary | std::ios::trunc) << damaged;
     use_device();
     EXPECT_EQ(complaints_, 1);
+    EXPECT_EQ(warnings_, 1);
     EXPECT_EQ(read(file).size(), whole.size());
   }
-  EXPECT_EQ(warnings_, 0);
+}
+
+TEST_F(PipelineCacheFile, a_folder_in_its_place_costs_a_warning) {
+  use_device();
+  const fs::path file = files().at(0);
+  fs::remove(file);
+  fs::create_directory(file);
+  use_device();
+  EXPECT_EQ(warnings_, 1);
+  EXPECT_TRUE(fs::is_directory(file));
 }
 
 TEST_F(PipelineCacheFile, a_directory_that_cannot_be_made_costs_a_warning) {
