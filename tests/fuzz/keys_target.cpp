@@ -26,11 +26,11 @@ KnobRegistry make_knobs() {
 }
 
 std::string knob_fault(const KnobRegistry& knobs) {
+  KnobRegistry again = knobs;
   for (const Knob& knob : knobs.knobs()) {
     const double number = knobs.number(knob);
     if (!(number >= knob.min && number <= knob.max)) return knob.name + " is out of range";
     if (knob.type != Knob::Type::number && number != std::floor(number)) return knob.name + " is not a whole number";
-    KnobRegistry again = knobs;
     if (!again.set(knob.name, knobs.text(knob)).ok() || again.number(*again.find(knob.name)) != number)
       return knob.name + " has a value that cannot be set: " + knobs.text(knob);
   }

@@ -145,6 +145,18 @@ TEST(SealedFile, that_a_link_names_is_replaced_and_the_link_stays) {
   EXPECT_EQ(read_sealed(path, "id"), "new");
 }
 
+TEST(SealedFile, a_link_to_a_file_that_is_not_there_makes_the_file) {
+  const test::TestFolder folder;
+  std::filesystem::create_directory(folder.path() + "/there");
+  std::filesystem::create_symlink("second", folder.path() + "/first");
+  std::filesystem::create_symlink("there/file", folder.path() + "/second");
+  ASSERT_TRUE(write_whole_file(folder.path() + "/first", "bytes").ok());
+  EXPECT_EQ(std::filesystem::file_size(folder.path() + "/there/file"), 5u);
+  EXPECT_TRUE(std::filesystem::is_symlink(folder.path() + "/second"));
+  std::filesystem::create_symlink("round", folder.path() + "/round");
+  EXPECT_FALSE(write_whole_file(folder.path() + "/round", "bytes").ok());
+}
+
 TEST(SealedFile, keeps_the_permissions_of_the_old_one) {
   const test::TestFolder folder;
   const std::string path = folder.path() + "/sealed";

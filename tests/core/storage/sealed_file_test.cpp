@@ -75,17 +75,5 @@ TEST(SealedFile, that_is_not_read_has_a_reason) {
   EXPECT_EQ(fault, SealedFault::none);
 }
 
-TEST(SealedFile, a_link_to_a_file_that_is_not_there_makes_the_file) {
-  const test::TestFolder folder;
-  std::filesystem::create_directory(folder.path() + "/there");
-  std::filesystem::create_symlink("second", folder.path() + "/first");
-  std::filesystem::create_symlink("there/file", folder.path() + "/second");
-  ASSERT_TRUE(write_whole_file(folder.path() + "/first", "bytes").ok());
-  EXPECT_EQ(bytes_of(folder.path() + "/there/file"), "bytes");
-  EXPECT_TRUE(std::filesystem::is_symlink(folder.path() + "/second"));
-  std::filesystem::create_symlink("round", folder.path() + "/round");
-  EXPECT_FALSE(write_whole_file(folder.path() + "/round", "bytes").ok());
-}
-
 }  // namespace
 }  // namespace gloam
