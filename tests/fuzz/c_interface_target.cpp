@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
+#include <iostream>
 #include <limits>
 #include <map>
 #include <memory>
@@ -42,7 +44,7 @@ class Source {
   /// One of `count` choices; most bytes choose the first one.
   std::size_t mostly_first(std::size_t count) {
     const std::uint8_t chosen = byte();
-    return chosen < 192 ? 0 : chosen % count;
+    return chosen < 240 ? 0 : chosen % count;
   }
   /// Mostly between 0 and 12, otherwise a number at which something may end.
   double number() {
@@ -51,7 +53,7 @@ class Source {
     constexpr std::array kOdd = {-1.0,  -0.0,  kInfinity, -kInfinity, kNan,    3.4e38, -3.4e38,  1e300,
                                  1e-45, 1e-38, 1e-9,      16777217.0, 65504.0, 1e9,    -0.00001, 3.14159265};
     const std::uint8_t chosen = byte();
-    return chosen < 192 ? chosen / 16.0 : kOdd[chosen % kOdd.size()];
+    return chosen < 240 ? chosen / 20.0 : kOdd[chosen % kOdd.size()];
   }
   float number_f() { return static_cast<float>(number()); }
 
@@ -469,12 +471,32 @@ gloam_engine* make_recording_engine() {
   return c_interface::engines().add(std::move(made));
 }
 
+gloam_engine* make_ended_engine() {
+  gloam_engine* engine = make_recording_engine();
+  static_cast<void>(gloam_engine_destroy(engine));
+  return engine;
+}
+
+/// The engine of all inputs on a Vulkan device with validation, which takes too long to make for each.
+gloam_engine* make_vulkan_engine(const char* device) {
+  gloam_engine_info info = GLOAM_ENGINE_INFO_INIT;
+  info.device = device;
+  info.validate = 1;
+  info.log = [](void*, gloam_log_level level, const char* line) {
+    if (level >= GLOAM_LOG_WARNING) std::cerr << line << '\n';
+  };
+  gloam_engine* engine = nullptr;
+  if (gloam_engine_create(&info, &engine) != GLOAM_OK) std::cerr << gloam_error_message() << '\n';
+  return engine;
+}
+
+/// GLOAM_FUZZ_DEVICE: "cpu" or part of the name of a Vulkan device, in place of the one that records.
 Outcome make_calls(Input input) {
-  static gloam_engine* const ended = [] {
-    gloam_engine* engine = make_recording_engine();
-    static_cast<void>(gloam_engine_destroy(engine));
-    return engine;
-  }();
+  static gloam_engine* const ended = make_ended_engine();
+  if (static const char* const device = std::getenv("GLOAM_FUZZ_DEVICE"); device != nullptr) {
+    static gloam_engine* const engine = make_vulkan_engine(device);
+    return engine == nullptr ? broken("there is no device") : Calls(input, engine, ended).run();
+  }
   gloam_engine* engine = make_recording_engine();
   const Outcome outcome = Calls(input, engine, ended).run();
   if (gloam_engine_destroy(engine) != GLOAM_OK && outcome.fault.empty())
