@@ -70,11 +70,12 @@ Arguments written(const Options& options) {
     add("--fit-proxies", std::to_string(options.fit_proxies));
   if (options.command == Command::compare) add("--most", number_text(options.most_flip));
   if (options.command == Command::bench) add("--scene", options.scene);
-  const bool of_scene = options.command == Command::play || options.command == Command::render ||
-                        options.command == Command::inspect || options.command == Command::bake ||
-                        options.command == Command::cost;
+  // An empty name is one, and no file has it.
+  const bool needs_scene =
+      options.command == Command::render || options.command == Command::inspect || options.command == Command::bake;
+  const bool takes_scene = options.command == Command::play || options.command == Command::cost;
   arguments.push_back("--");
-  if (of_scene && !options.scene.empty()) arguments.push_back(options.scene);
+  if (needs_scene || (takes_scene && !options.scene.empty())) arguments.push_back(options.scene);
   for (const std::string& name : options.names) arguments.push_back(name);
   return arguments;
 }
