@@ -18,10 +18,16 @@ EntryState state_of(const std::string& name) {
   return name == "failed" ? EntryState::failed : EntryState::waiting;
 }
 
+/// 0, which no shard has, for what is no whole number of 32 bits: the library would cast it without a defined result.
+std::uint32_t number_of(const Json& json) {
+  const bool fits = json.is_number_unsigned() && json.get<std::uint64_t>() <= 0xffffffffu;
+  return fits ? json.get<std::uint32_t>() : 0;
+}
+
 ShardSummary summary_of(const Json& json) {
   ShardSummary summary = {.list = json.at("list").get<std::string>(),
                           .list_hash = json.at("list_hash").get<std::string>(),
-                          .shard = {json.at("shard").get<std::uint32_t>(), json.at("shards").get<std::uint32_t>()}};
+                          .shard = {number_of(json.at("shard")), number_of(json.at("shards"))}};
   for (const Json& entry : json.at("entries"))
     summary.entries.push_back({entry.at("name").get<std::string>(), entry.at("text").get<std::string>(),
                                state_of(entry.at("state").get<std::string>()), entry.value("error", std::string())});
@@ -55,7 +61,7 @@ std::string summary_json(const ShardSummary& summary) {
 Result<ShardSummary> parse_summary(std::string_view text) {
   try {
     const Json json = Json::parse(text);
-    if (json.at("version").get<int>() != 1)
+    if (number_of(json.at("version")) != 1)
       return Error{ErrorKind::input, "is a shard's summary of another version; this program reads version 1"};
     ShardSummary summary = summary_of(json);
     if (summary.shard.number >= 1 && summary.shard.number <= summary.shard.count) return summary;

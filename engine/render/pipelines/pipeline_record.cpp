@@ -106,15 +106,20 @@ class Reader {
   /// last: the type's last value.
   template <class Enum>
   void read(const Json& json, Enum& value, Enum last) {
-    const int number = json.get<int>();
-    sound_ = sound_ && number >= 0 && number <= number_of(last);
+    const std::uint32_t number = whole(json);
+    sound_ = sound_ && number <= static_cast<std::uint32_t>(number_of(last));
     if (sound_) value = static_cast<Enum>(number);
+  }
+  /// A whole number of 32 bits; the library would wrap another one, or cast it without a defined result.
+  [[nodiscard]] std::uint32_t whole(const Json& json) {
+    sound_ = sound_ && json.is_number_unsigned() && json.get<std::uint64_t>() <= 0xffffffffu;
+    return sound_ ? json.get<std::uint32_t>() : 0;
   }
 
   [[nodiscard]] bool read_shader(const Json& json, gpu::ShaderCode& code) const {
     if (json.is_null()) return true;
     const auto found = shaders_.find(json.at("name").get<std::string>());
-    if (found == shaders_.end() || words_hash_of(*found->second) != json.at("words").get<std::uint64_t>()) return false;
+    if (found == shaders_.end() || json.at("words") != words_hash_of(*found->second)) return false;
     code = *found->second;
     return true;
   }
@@ -132,7 +137,7 @@ class Reader {
       const std::string& name = *names_.insert(constant.at("name").get<std::string>()).first;
       gpu::SpecValue value(std::uint32_t{0});
       read(constant.at("type"), value.type, gpu::SpecType::floating);
-      value.bits = constant.at("bits").get<std::uint32_t>();
+      value.bits = whole(constant.at("bits"));
       if (constant.at("if_present").get<bool>())
         desc.constants.set_if_present(name, value);
       else
@@ -143,12 +148,12 @@ class Reader {
   void read_state(const Json& json, gpu::GraphicsPipelineDesc& desc) {
     for (const Json& a : json.at("attributes")) {
       gpu::VertexAttribute& made = desc.attributes.emplace_back();
-      made.location = a.at(0).get<std::uint32_t>();
-      made.stream = a.at(1).get<std::uint32_t>();
+      made.location = whole(a.at(0));
+      made.stream = whole(a.at(1));
       read(a.at(2), made.format, gpu::Format::d32_float);
-      made.offset = a.at(3).get<std::uint32_t>();
+      made.offset = whole(a.at(3));
     }
-    desc.stream_strides = json.at("strides").get<std::vector<std::uint32_t>>();
+    for (const Json& stride : json.at("strides")) desc.stream_strides.push_back(whole(stride));
     for (const Json& format : json.at("color_formats"))
       read(format, desc.color_formats.emplace_back(), gpu::Format::d32_float);
     read(json.at("depth_format"), desc.depth_format, gpu::Format::d32_float);

@@ -15,6 +15,14 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMostFaultBytes = 300;  ///< the parser quotes what it has read last, however long it is
 
+/// A whole number in the range of T. nlohmann::json would wrap another one, or cast it without a defined result.
+template <class T>
+T whole(const Json& json) {
+  if (!json.is_number_unsigned() || json.get<std::uint64_t>() > std::numeric_limits<T>::max())
+    throw Json::type_error::create(302, "a number is not a whole number in its range", &json);
+  return json.get<T>();
+}
+
 Json pair_json(const ErrorPair& pair) { return {{"mean", pair.mean}, {"p99", pair.p99}}; }
 ErrorPair pair_of(const Json& json) { return {json.at("mean").get<double>(), json.at("p99").get<double>()}; }
 
@@ -135,13 +143,13 @@ LedgerRow row_of(const Json& json) {
   row.ratio_high = interval.at(1).get<double>();
   row.sure_low = sure.at(0).get<double>();
   row.sure_high = sure.at(1).get<double>();
-  row.pairs = json.value("pairs", 0u);
-  row.gpu_bytes = json.at("gpu_bytes").get<std::uint64_t>();
+  row.pairs = json.contains("pairs") ? whole<std::uint32_t>(json["pairs"]) : 0;
+  row.gpu_bytes = whole<std::uint64_t>(json.at("gpu_bytes"));
   row.picture = json.value("picture", std::string());
   row.reference_picture = json.value("reference_picture", "");  // absent in ledgers of earlier versions, as is `worst`
   for (const Json& area : json.value("worst", Json::array()))
-    row.worst.push_back({area.at(0).get<std::uint32_t>(), area.at(1).get<std::uint32_t>(),
-                         area.at(2).get<std::uint32_t>(), area.at(3).get<std::uint32_t>()});
+    row.worst.push_back({whole<std::uint32_t>(area.at(0)), whole<std::uint32_t>(area.at(1)),
+                         whole<std::uint32_t>(area.at(2)), whole<std::uint32_t>(area.at(3))});
   row.no_effect = json.value("no_effect", false);
   row.no_reference = json.value("no_reference", "");
   row.no_effect_reason = json.value("no_effect_reason", "");
@@ -207,7 +215,7 @@ ModelQuality model_of(const Json& json) {
   const auto ratio = [](const Json& value) {
     return ModelRatio{value.at("median").get<double>(), value.at("worst").get<double>()};
   };
-  return {json.at("points").get<std::uint32_t>(), ratio(json.at("time")), ratio(json.at("error"))};
+  return {whole<std::uint32_t>(json.at("points")), ratio(json.at("time")), ratio(json.at("error"))};
 }
 
 Json json_of(const FrameCost& frame) {
@@ -253,17 +261,17 @@ LedgerHeader header_of(const Json& json) {
   header.device = device.at("name").get<std::string>();
   header.driver = device.at("driver").get<std::string>();
   header.device_type = device.at("type").get<std::string>();
-  header.subgroup_size = device.at("subgroup_size").get<std::uint32_t>();
-  header.width = json.at("size").at(0).get<std::uint32_t>();
-  header.height = json.at("size").at(1).get<std::uint32_t>();
+  header.subgroup_size = whole<std::uint32_t>(device.at("subgroup_size"));
+  header.width = whole<std::uint32_t>(json.at("size").at(0));
+  header.height = whole<std::uint32_t>(json.at("size").at(1));
   header.version = json.at("gloam").at("version").get<std::string>();
   header.build = json.at("gloam").at("build").get<std::string>();
   header.host = json.value("host", std::string());
   header.quick = json.at("quick").get<bool>();
-  header.frames = json.at("frames").get<std::uint32_t>();
+  header.frames = whole<std::uint32_t>(json.at("frames"));
   header.seconds = json.value("seconds", 0.0);
   header.clock = json.value("clock_meaning", std::string());
-  header.samples = json.at("reference_samples").get<std::uint32_t>();
+  header.samples = whole<std::uint32_t>(json.at("reference_samples"));
   return header;
 }
 
@@ -319,7 +327,7 @@ std::string ledger_json(const Ledger& ledger) {
 
 Result<Ledger> parse_ledger_json(std::string_view text) {
   auto parsed = parse(text, "ledger", [](const Json& json) -> std::optional<Ledger> {
-    if (json.at("version").get<int>() != 1) return std::nullopt;
+    if (whole<std::uint32_t>(json.at("version")) != 1) return std::nullopt;
     Ledger ledger = {.header = header_of(json)};
     for (const Json& row : json.at("rows")) ledger.rows.push_back(row_of(row));
     for (const Json& skipped : json.at("skipped"))

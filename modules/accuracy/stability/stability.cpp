@@ -61,6 +61,13 @@ double number_of(const nlohmann::json& json) {
   return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
 }
 
+/// nlohmann::json would cast a number that is out of range without a defined result.
+std::uint32_t size_of(const nlohmann::json& json) {
+  const bool fits = json.is_number_unsigned() && json.get<std::uint64_t>() <= 0xffffffffu;
+  if (!fits) throw nlohmann::json::type_error::create(302, "a size is out of range", &json);
+  return json.get<std::uint32_t>();
+}
+
 StabilityCheck check_of(const nlohmann::json& json) {
   StabilityCheck check = {.name = json.at("id"),
                           .sentence = json.at("what"),
@@ -92,7 +99,7 @@ Result<StabilityReport> parse_stability_json(std::string_view text) {
                               .device = device.at("name"),
                               .driver = device.at("driver"),
                               .device_type = device.at("type"),
-                              .subgroup_size = device.at("subgroup_size"),
+                              .subgroup_size = size_of(device.at("subgroup_size")),
                               .host = json.at("host"),
                               .quick = json.at("quick"),
                               .seconds = json.at("seconds")};

@@ -86,6 +86,14 @@ TEST(ledger_json, refuses_hostile_texts_in_one_short_line) {
   EXPECT_EQ(parse_ledger_json(open).error().message.find('\n'), std::string::npos);
 }
 
+TEST(ledger_json, refuses_numbers_that_are_not_whole_or_out_of_range) {
+  for (const char* number : {"1e30", "-1", "0.5", "4294967296"}) {
+    auto json = nlohmann::json::parse(ledger_json(full_ledger()));
+    json["rows"][0]["pairs"] = nlohmann::json::parse(number);
+    EXPECT_THAT(parse_ledger_json(json.dump()).error().message, HasSubstr("not a whole number")) << number;
+  }
+}
+
 TEST(ledger_json, refuses_a_point_without_the_errors_that_choose_it) {
   const auto sound = nlohmann::json::parse(ledger_json(full_ledger()));
   auto json = sound;

@@ -101,7 +101,8 @@ TEST(PipelineRecord, numbers_that_are_no_value_of_their_type_are_refused) {
                                      {R"("cull":0)", R"("cull":-1)"},
                                      {R"("depth_compare":5)", R"("depth_compare":7)"},
                                      {R"("depth_format":24)", R"("depth_format":25)"},
-                                     {R"("type":3)", R"("type":260)"}}) {
+                                     {R"("type":3)", R"("type":260)"},
+                                     {R"("bits":7)", R"("bits":1e30)"}}) {
     std::string body = record.substr(record.find('\n') + 1);
     ASSERT_NE(body.find(sound), std::string::npos) << sound << " in " << body;
     body.replace(body.find(sound), sound.size(), wrong);
