@@ -69,7 +69,8 @@ endfunction()
 
 # gloam_add_layer(<name> SOURCES … [ALONE sources…] [PUBLIC targets…] [PRIVATE targets…])
 # Static library gloam_<name>, exported as gloam::<name>. Its headers are included by full path from the root. ALONE:
-# sources that share a file-local name with another one and are compiled alone.
+# sources that are compiled alone, because they share a file-local name with another one or need a library that the
+# others do not.
 function(gloam_add_layer name)
   cmake_parse_arguments(ARG "" "" "SOURCES;ALONE;PUBLIC;PRIVATE" ${ARGN})
   add_library(gloam_${name} STATIC ${ARG_SOURCES})

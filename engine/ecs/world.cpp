@@ -14,7 +14,8 @@ World::World(const WorldLimits& limits)
 World::~World() = default;
 
 std::string World::unregistered_sentence(std::string_view type) {
-  return "component " + std::string(type) + " is not registered in this world";
+  return "component " + std::string(type) +
+         " is not registered in this world: register it first, or have a renderer prepare the world";
 }
 
 std::string World::absent_sentence(std::string_view type, std::string_view where) {

@@ -9,9 +9,9 @@
 
 #include "engine/core/system/process.h"
 #include "engine/core/text/formatted.h"
-#include "engine/render/draws/culling.h"
 #include "engine/render/draws/levels.h"
 #include "engine/render/kept_frames/kept_frames.h"
+#include "engine/render/knobs/renderer_knobs.h"
 #include "engine/render/scene/scene_triangles.h"
 #include "modules/accuracy/module.h"
 #include "modules/accuracy/outputs.h"
@@ -125,8 +125,7 @@ constexpr const char* kEveryFrame = "ledgers measure frames in which something c
 KnobRegistry measurable_knobs() {
   KnobRegistry registry;
   for (const auto& module : make_all_modules()) module->knobs(registry);
-  add_knobs(registry, "scene", kCulling, kFrameReuse, kLodPixels);
-  add_knobs(registry, "views", kViewScale);
+  add_renderer_knobs(registry);
   return registry;
 }
 

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "engine/render/draws/culling.h"
-#include "engine/render/draws/levels.h"
 #include "engine/render/kept_frames/kept_frames.h"
 #include "modules/lighting/outputs.h"
 #include "modules/reflections/module.h"
@@ -16,7 +14,7 @@ namespace gloam {
 
 void add_program_knobs(KnobRegistry& knobs) {
   add_knobs(knobs, "scene", kDefaultLight);
-  add_knobs(knobs, "views", kHeatRange, kViewScale);
+  add_knobs(knobs, "views", kHeatRange);
 }
 
 float heat_range(const KnobRegistry& knobs) {
@@ -40,7 +38,7 @@ std::vector<float> heat_ranges(const KnobRegistry& knobs) {
 KnobRegistry all_knobs(const ModuleList& modules) {
   KnobRegistry knobs;
   for (const auto& module : modules) module->knobs(knobs);
-  add_knobs(knobs, "scene", kCulling, kFrameReuse, kLodPixels);
+  add_renderer_knobs(knobs);
   add_program_knobs(knobs);
   return knobs;
 }

@@ -6,6 +6,7 @@
 
 #include "engine/core/result.h"
 #include "engine/render/knobs/knob_table.h"
+#include "engine/render/knobs/renderer_knobs.h"
 #include "engine/render/module.h"
 #include "sandbox/options.h"
 
@@ -37,17 +38,8 @@ inline constexpr ChoiceKnob<float> kHeatRange{
                 {"16", 16.0f}},
     .default_value = 1.0f,
     .is_look = true};
-/// `play` has --scale in place of it.
-inline constexpr ChoiceKnob<double> kViewScale{
-    .name = "views.scale",
-    .meaning =
-        "share of the picture's width and height that cost and render draw; the result is enlarged to the picture's "
-        "size by a Lanczos filter on the CPU, whose time is not counted; play has --scale",
-    .choices = {{"1", 1.0}, {"0.85", 0.85}, {"0.7", 0.7}, {"0.5", 0.5}, {"0.35", 0.35}},
-    .default_value = 1.0,
-    .exact = 1.0,
-    .scales_frame = true};
 
+/// Adds the knobs above to those of a renderer.
 void add_program_knobs(KnobRegistry& knobs);
 
 /// Value of kHeatRange, for ViewSettings::heat_range; 1 if it is kFitHeatRange, or if the registry lacks the knob.
@@ -58,7 +50,7 @@ void add_program_knobs(KnobRegistry& knobs);
 /// The factors among the choices of kHeatRange, ascending; none if the registry lacks the knob.
 [[nodiscard]] std::vector<float> heat_ranges(const KnobRegistry& knobs);
 
-/// The knobs of these modules and of the program, with their defaults.
+/// The knobs of these modules, of the renderer and of the program, with their defaults.
 [[nodiscard]] KnobRegistry all_knobs(const ModuleList& modules);
 
 /// Sets knobs from --config, then from --set. Before, `play` and `render` turn antialiasing on, `play` fits the

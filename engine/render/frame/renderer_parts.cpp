@@ -6,8 +6,7 @@
 #include <utility>
 
 #include "engine/core/zones.h"
-#include "engine/render/draws/culling.h"
-#include "engine/render/draws/levels.h"
+#include "engine/render/knobs/renderer_knobs.h"
 #include "engine/scene/systems.h"
 
 namespace gloam {
@@ -25,7 +24,7 @@ RendererParts::RendererParts(RendererOptions given)
   options.log = &log;
   add_scene_systems(schedule);
   modules.add_to(knobs.set, schedule);
-  add_knobs(knobs.set, "scene", kCulling, kFrameReuse, kLodPixels);
+  add_renderer_knobs(knobs.set);
 }
 
 RendererParts::~RendererParts() {

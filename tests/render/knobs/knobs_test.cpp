@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "engine/render/knobs/renderer_knobs.h"
 #include "tests/support/expect_assert.h"
 #include "tests/support/knob_text.h"
 
@@ -255,6 +256,16 @@ TEST_F(Knobs, an_exact_value_is_one_of_theirs) {
   Knob knob = number_knob("y", Knob::Type::integer, 1, 64, 8);
   knob.exact = "65";
   EXPECT_ASSERT(KnobRegistry().add(knob), "exact value");
+}
+
+// A host moves the resolution by a budget, as the program does: the front of a ledger names views.scale.
+TEST_F(Knobs, of_the_renderer_scale_views) {
+  KnobRegistry knobs;
+  add_renderer_knobs(knobs);
+  EXPECT_EQ(knobs.value(kViewScale), 1.0);
+  ASSERT_TRUE(knobs.set("views.scale", "0.7").ok());
+  EXPECT_EQ(knobs.value(kViewScale), 0.7);
+  EXPECT_TRUE(knobs.find("views.scale")->scales_frame);
 }
 
 }  // namespace
