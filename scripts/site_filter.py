@@ -48,7 +48,15 @@ def filtered(page, text):
         if heading:
             line += f" {{#{label(page, anchor_of(heading[2], seen))}}}"
         lines.append(line)
-    return "\n".join(lines)
+    return code_spans("\n".join(lines))
+
+
+def code_spans(text):
+    """With two backticks: after one, Doxygen also ends code at an apostrophe."""
+    parts = re.split(r"(^[ \t]*```.*?^[ \t]*```[^\n]*$)", text, flags=re.MULTILINE | re.DOTALL)
+    for i in range(0, len(parts), 2):
+        parts[i] = re.sub(r"(?<!`)`([^`]+)`(?!`)", r"``\1``", parts[i])
+    return "".join(parts)
 
 
 if __name__ == "__main__":
