@@ -146,6 +146,7 @@ void Renderer::free_idle_memory() {
   parts_->resources.graph.free_idle_memory();
   parts_->resources.free_staging();
   for (const auto& module : modules()) module->free_idle_memory();
+  parts_->resources.pipelines.release_unused();
   parts_->options.device->free_idle_memory();
 }
 

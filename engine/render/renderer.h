@@ -105,8 +105,8 @@ class Renderer {
   /// Waits for the GPU, then frees the memory of cached plans except the last frame's (FrameGraph::free_idle_memory),
   /// of staging, and of all objects that were destroyed before; gives empty memory blocks back to the driver
   /// (gpu::Device::free_idle_memory); and has modules free what only past frames have needed: an atlas of shadow maps
-  /// that is too large shrinks in the next frame. Without this call, memory of unused plans is kept for a while, in
-  /// case frames with the same passes return.
+  /// that is too large shrinks in the next frame. Pipelines that were in no frame for 600 frames are destroyed. Without
+  /// this call, memory of unused plans is kept for a while, in case frames with the same passes return.
   void free_idle_memory();
   /// Reads the picture of a view's last frame. Waits for the GPU. Usage error if the view has no picture: it was not
   /// drawn, or into a target image, or its images were released; that holds for the images of all functions below.
@@ -134,7 +134,7 @@ class Renderer {
   /// error if the words are no SPIR-V, or if passes that were written for the embedded shader cannot use them
   /// (gpu::interface_difference); then nothing changes.
   [[nodiscard]] Status replace_shader(const gpu::ShaderCode& embedded, std::vector<std::uint32_t> words);
-  /// All pipelines that frames have asked for, as text for make_pipelines() of a later process.
+  /// All existing pipelines that frames have asked for, as text for make_pipelines() of a later process.
   [[nodiscard]] std::string pipeline_record() const;
   /// Has the pipelines of a record made in the background, for example while a scene is loaded, so that the first frame
   /// finds them. shaders: those that pipelines may have; they must outlive the renderer. Pipelines of other shaders,

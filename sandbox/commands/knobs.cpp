@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "modules/module_list/module_list.h"
 #include "sandbox/commands/commands.h"
@@ -24,9 +26,19 @@ std::string values_text(const Knob& knob) {
   return text;
 }
 
+/// The knobs by module, modules in the order of their first knobs.
+std::vector<Knob> by_module(const KnobRegistry& registry) {
+  std::vector<Knob> knobs = registry.knobs();
+  std::vector<std::string> modules;
+  for (const Knob& knob : knobs)
+    if (std::ranges::find(modules, knob.module) == modules.end()) modules.push_back(knob.module);
+  std::ranges::stable_sort(knobs, {}, [&](const Knob& knob) { return std::ranges::find(modules, knob.module); });
+  return knobs;
+}
+
 std::string text_of(const KnobRegistry& registry) {
   std::string text, module;
-  for (const Knob& knob : registry.knobs()) {
+  for (const Knob& knob : by_module(registry)) {
     if (knob.module != module) text += (module.empty() ? "" : "\n") + knob.module + "\n";
     module = knob.module;
     text += "  " + knob.name + "=" + registry.text(knob) + "  (" + values_text(knob) + ")\n      " + knob.meaning;
@@ -71,10 +83,12 @@ std::string markdown_of(const KnobRegistry& registry) {
       "that\n"
       "`gloam cost` compares the other values with. `gloam play` and `gloam render` set "
       "`lighting.antialiasing=smaa`,\n"
-      "and `gloam play` sets `views.range=fit` and `reflections.recapture=budget`.\n\n"
+      "and `gloam play` sets `views.range=fit` and `reflections.recapture=budget`. `scene.default_light` and "
+      "`views.range`\n"
+      "are knobs of the program alone.\n\n"
       "This page is the output of `gloam knobs --markdown`; the tests compare it.\n";
   std::string module;
-  for (const Knob& knob : registry.knobs()) {
+  for (const Knob& knob : by_module(registry)) {
     if (knob.module != module)
       text += "\n## " + knob.module +
               "\n\n| Knob | Values | Default | Exact | Meaning |\n| --- | --- | --- | --- | --- |\n";

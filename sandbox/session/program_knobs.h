@@ -6,8 +6,8 @@
 
 #include "engine/core/result.h"
 #include "engine/render/knobs/knob_table.h"
-#include "engine/render/knobs/renderer_knobs.h"
 #include "engine/render/module.h"
+#include "engine/render/views/renderer_knobs.h"
 #include "sandbox/options.h"
 
 namespace gloam {

@@ -100,6 +100,7 @@ void note_surfaces(Frame& frame, std::size_t index, RendererParts& parts) {
 Status record_frame(Frame& frame, RendererParts& parts, gpu::CommandList& commands) {
   FrameResources& resources = parts.resources;
   resources.begin_frame();
+  resources.pipelines.begin_frame();
   resources.motion.begin_frame(frame.world, world_id(frame.world),
                                frame.any_needs(parts.modules, &Module::needs_motion), frame.redraw != nullptr);
   GLOAM_TRY(add_companions(frame, parts.modules, *parts.options.device));

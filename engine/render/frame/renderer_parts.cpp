@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "engine/core/zones.h"
-#include "engine/render/knobs/renderer_knobs.h"
+#include "engine/render/views/renderer_knobs.h"
 #include "engine/scene/systems.h"
 
 namespace gloam {

@@ -73,6 +73,7 @@ std::optional<gpu::PipelineHandle> Pipelines::find_or_take(std::uint64_t key, bo
   const std::lock_guard lock(mutex_);
   if (const auto found = entries_.find(key); found != entries_.end()) {
     found->second.asked_for = found->second.asked_for || !in_background;
+    found->second.last_frame = frame_;
     return found->second.pipeline;
   }
   if (std::erase_if(queue_, [&](const AnyDesc& queued) { return key_of_any(queued) == key; }) > 0) begun_.erase(key);
@@ -102,6 +103,7 @@ Result<gpu::PipelineHandle> Pipelines::find_or_make(const Desc& desc, bool in_ba
   failed_.erase(key);
   const auto [place, fresh] = entries_.try_emplace(key, Entry{desc, *made});
   place->second.asked_for = place->second.asked_for || !in_background;
+  place->second.last_frame = frame_;
   if (!fresh) device_.destroy(*made);  // another thread was faster
   return place->second.pipeline;
 }
@@ -115,6 +117,7 @@ gpu::PipelineHandle Pipelines::find_existing(const Desc& desc) const {
   const auto found = entries_.find(key_of(desc));
   if (found == entries_.end()) return {};
   found->second.asked_for = true;
+  found->second.last_frame = frame_;
   return found->second.pipeline;
 }
 gpu::PipelineHandle Pipelines::find(const gpu::ComputePipelineDesc& desc) const { return find_existing(desc); }
@@ -125,7 +128,9 @@ bool Pipelines::request(const PipelineList& list, LogSink& log) {
   bool ready = true;
   for (const AnyDesc& desc : list) {
     const std::uint64_t key = key_of_any(desc);
-    if (entries_.contains(key) || failed_.contains(key)) continue;
+    const auto found = entries_.find(key);
+    if (found != entries_.end()) found->second.last_frame = frame_;
+    if (found != entries_.end() || failed_.contains(key)) continue;
     ready = false;
     if (begun_.insert(key).second) queue_.push_back(desc);
   }
@@ -179,6 +184,20 @@ void Pipelines::replace_shader(std::string_view name, std::vector<std::uint32_t>
   failed_.clear();  // they may succeed now
   std::erase_if(entries_, [&](const auto& entry) {
     if (!std::visit([&](const auto& desc) { return has_shader(desc, name); }, entry.second.desc)) return false;
+    device_.destroy(entry.second.pipeline);
+    return true;
+  });
+}
+
+void Pipelines::begin_frame() {
+  const std::lock_guard lock(mutex_);
+  ++frame_;
+}
+
+void Pipelines::release_unused() {
+  const std::lock_guard lock(mutex_);
+  std::erase_if(entries_, [&](const auto& entry) {
+    if (entry.second.last_frame + kUnusedFrames >= frame_) return false;
     device_.destroy(entry.second.pipeline);
     return true;
   });

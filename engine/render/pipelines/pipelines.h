@@ -59,8 +59,8 @@ class Pipelines {
   void replace_shader(std::string_view name, std::vector<std::uint32_t> words);
   /// Calls of replace_shader() so far. Pictures of before may differ from those that the same inputs give now.
   [[nodiscard]] std::uint64_t replacements() const;
-  /// The descriptions of all pipelines that get() or find() was asked for, as text for request_record() of a later
-  /// process.
+  /// The descriptions of the existing pipelines that get() or find() was asked for, as text for request_record() of a
+  /// later process.
   [[nodiscard]] std::string record() const;
   /// Has the pipelines of a record made in the background, smallest shader first, for example while a scene is loaded:
   /// frames begin with the largest, so the two meet at a small one, which both may make.
@@ -70,6 +70,13 @@ class Pipelines {
   /// Destroys all pipelines of a module, removes its queued ones and forgets its failures. A pipeline that is being
   /// compiled in the background stays.
   void release(std::string_view module);
+  /// Tells that a frame begins: a pipeline is in use in the frame in which it was last asked for.
+  void begin_frame();
+  /// Destroys the pipelines that were in no frame for kUnusedFrames frames: a host that tries many settings would
+  /// gather pipelines without end. The GPU must have finished with them.
+  void release_unused();
+
+  static constexpr std::uint64_t kUnusedFrames = 600;
 
  private:
   template <class Desc>
@@ -80,7 +87,8 @@ class Pipelines {
   struct Entry {
     PipelineList::value_type desc;
     gpu::PipelineHandle pipeline;
-    mutable bool asked_for = false;  ///< not only made in the background
+    mutable bool asked_for = false;        ///< not only made in the background
+    mutable std::uint64_t last_frame = 0;  ///< frame_ when it was asked for last
   };
   /// The pipeline, if it exists. Otherwise it is the caller's to make, and no longer queued.
   [[nodiscard]] std::optional<gpu::PipelineHandle> find_or_take(std::uint64_t key, bool in_background);
@@ -98,6 +106,7 @@ class Pipelines {
   /// By name. Devices may identify shaders by the address of their words, so that replaced words stay.
   std::unordered_map<std::string, std::deque<std::vector<std::uint32_t>>> replaced_;
   std::uint64_t replacements_ = 0;
+  std::uint64_t frame_ = 0;  ///< calls of begin_frame() so far
   PipelineList queue_;
   PipelineNames names_;  ///< of constants, from records
   std::string made_;     ///< made_in_background

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "engine/render/knobs/renderer_knobs.h"
+#include "engine/render/views/renderer_knobs.h"
 #include "tests/support/expect_assert.h"
 #include "tests/support/knob_text.h"
 

@@ -48,6 +48,26 @@ TEST_F(PipelinesTest, a_description_is_made_once_whatever_its_name) {
   EXPECT_FALSE(pipelines.find(compute(3, "lights")));
 }
 
+TEST_F(PipelinesTest, of_no_frame_for_a_long_time_are_destroyed_and_made_again) {
+  Pipelines pipelines(*device_);
+  const auto old = pipelines.get(compute(1, "lights"));
+  const auto used = pipelines.get(compute(2, "lights"));
+  ASSERT_TRUE(old.ok() && used.ok());
+  for (std::uint64_t frame = 0; frame < Pipelines::kUnusedFrames; ++frame) {
+    pipelines.begin_frame();
+    EXPECT_EQ(pipelines.find(compute(2, "lights")), *used);
+  }
+  pipelines.release_unused();
+  EXPECT_EQ(device_->pipeline_count("lights"), 2u) << "not for long enough";
+  pipelines.begin_frame();
+  EXPECT_TRUE(pipelines.request({compute(2, "lights")}, null_log()));
+  pipelines.release_unused();
+  EXPECT_EQ(device_->pipeline_count("lights"), 1u);
+  EXPECT_FALSE(pipelines.find(compute(1, "lights")));
+  EXPECT_TRUE(pipelines.get(compute(1, "lights")).ok());
+  EXPECT_EQ(device_->pipeline_count("lights"), 2u);
+}
+
 TEST_F(PipelinesTest, modules_do_not_share_pipelines) {
   Pipelines pipelines(*device_);
   const auto lights = pipelines.get(compute(1, "lights"));

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
-#include "engine/render/knobs/renderer_knobs.h"
+#include "engine/render/views/renderer_knobs.h"
 
 #include "engine/render/draws/culling.h"
 #include "engine/render/draws/levels.h"
