@@ -27,18 +27,21 @@ std::string values_text(const Knob& knob) {
 }
 
 /// The knobs by module, modules in the order of their first knobs.
-std::vector<Knob> by_module(const KnobRegistry& registry) {
-  std::vector<Knob> knobs = registry.knobs();
+std::vector<const Knob*> by_module(const KnobRegistry& registry) {
+  std::vector<const Knob*> knobs;
   std::vector<std::string> modules;
-  for (const Knob& knob : knobs)
+  for (const Knob& knob : registry.knobs()) {
+    knobs.push_back(&knob);
     if (std::ranges::find(modules, knob.module) == modules.end()) modules.push_back(knob.module);
-  std::ranges::stable_sort(knobs, {}, [&](const Knob& knob) { return std::ranges::find(modules, knob.module); });
+  }
+  std::ranges::stable_sort(knobs, {}, [&](const Knob* knob) { return std::ranges::find(modules, knob->module); });
   return knobs;
 }
 
 std::string text_of(const KnobRegistry& registry) {
   std::string text, module;
-  for (const Knob& knob : by_module(registry)) {
+  for (const Knob* own : by_module(registry)) {
+    const Knob& knob = *own;
     if (knob.module != module) text += (module.empty() ? "" : "\n") + knob.module + "\n";
     module = knob.module;
     text += "  " + knob.name + "=" + registry.text(knob) + "  (" + values_text(knob) + ")\n      " + knob.meaning;
@@ -88,7 +91,8 @@ std::string markdown_of(const KnobRegistry& registry) {
       "are knobs of the program alone.\n\n"
       "This page is the output of `gloam knobs --markdown`; the tests compare it.\n";
   std::string module;
-  for (const Knob& knob : by_module(registry)) {
+  for (const Knob* own : by_module(registry)) {
+    const Knob& knob = *own;
     if (knob.module != module)
       text += "\n## " + knob.module +
               "\n\n| Knob | Values | Default | Exact | Meaning |\n| --- | --- | --- | --- | --- |\n";
