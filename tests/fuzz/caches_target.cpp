@@ -168,26 +168,8 @@ std::vector<Bytes> pipeline_seeds() {
 }
 
 std::vector<std::string> pipeline_words() {
-  return {"{",
-          "}",
-          "[",
-          "]",
-          ",",
-          ":",
-          "null",
-          "true",
-          "-1",
-          "255",
-          "256",
-          "4294967295",
-          "1e99",
-          "\"shader\"",
-          "\"vertex\"",
-          "\"fragment\"",
-          "\"constants\"",
-          "\"test/one.comp\"",
-          "\"test/two.vert\"",
-          "\"name\""};
+  return with_json_signs({"255", "256", "4294967295", "1e99", "\"shader\"", "\"vertex\"", "\"fragment\"",
+                          "\"constants\"", "\"test/one.comp\"", "\"test/two.vert\"", "\"name\""});
 }
 
 }  // namespace

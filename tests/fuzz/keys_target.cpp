@@ -217,23 +217,8 @@ std::vector<Bytes> light_files() {
 }
 
 std::vector<std::string> light_words() {
-  return {"\"intensity\"",
-          "\"color\"",
-          "\"range_m\"",
-          "\"width_m\"",
-          "\"on\"",
-          "\"shadows\"",
-          "\"rotation\"",
-          "\"translation\"",
-          "{",
-          "}",
-          "[",
-          "]",
-          ",",
-          ":",
-          "true",
-          "1e9",
-          "1e-50"};
+  return with_json_signs({"\"intensity\"", "\"color\"", "\"range_m\"", "\"width_m\"", "\"on\"", "\"shadows\"",
+                          "\"rotation\"", "\"translation\"", "1e9", "1e-50"});
 }
 
 Outcome read_play_settings(Input input) {

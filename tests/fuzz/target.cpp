@@ -69,4 +69,9 @@ std::vector<std::string> lines_of(std::string_view text) {
   return lines;
 }
 
+std::vector<std::string> with_json_signs(std::vector<std::string> words) {
+  for (const char* sign : {"{", "}", "[", "]", ",", ":", "null", "true", "-1"}) words.emplace_back(sign);
+  return words;
+}
+
 }  // namespace gloam::fuzz

@@ -64,6 +64,9 @@ struct Target {
 /// The lines of a text, without line breaks.
 [[nodiscard]] std::vector<std::string> lines_of(std::string_view text);
 
+/// These words and the signs of JSON.
+[[nodiscard]] std::vector<std::string> with_json_signs(std::vector<std::string> words);
+
 // The targets, each in a source of its own.
 [[nodiscard]] Target scene_target();
 [[nodiscard]] Target keys_target();

@@ -246,12 +246,7 @@ void try_wrong_arguments(host::VulkanHost& vulkan, const Stage& stage, const glo
 }  // namespace
 
 int main() {
-  std::string why;
-  const std::unique_ptr<host::VulkanHost> vulkan = host::VulkanHost::open(why);
-  if (vulkan == nullptr) {
-    std::printf("skipped: %s\n", why.c_str());
-    return host::kSkipped;
-  }
+  const std::unique_ptr<host::VulkanHost> vulkan = host::VulkanHost::open_or_skip();
   bool right = true;
   {
     const Surfaces surfaces(*vulkan);

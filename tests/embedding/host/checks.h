@@ -5,8 +5,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <string_view>
 #include <utility>
 
+#include "engine/core/log.h"
 #include "engine/core/result.h"
 
 namespace host {
@@ -24,6 +26,14 @@ T value_of(gloam::Result<T> result) {
 }
 inline void check(const gloam::Status& status) {
   if (!status.ok()) fail(status.error().message);
+}
+
+/// Prints warnings and errors.
+inline gloam::LogSink& warning_log() {
+  static gloam::FunctionLog log([](gloam::LogLevel level, std::string_view line) {
+    if (level >= gloam::LogLevel::warning) std::fprintf(stderr, "%.*s\n", static_cast<int>(line.size()), line.data());
+  });
+  return log;
 }
 
 }  // namespace host

@@ -40,7 +40,6 @@ const dvec3 kLamp(0.3, 4.0, 0.2);
 
 using host::check;
 using host::fail;
-using host::kSkipped;
 using host::value_of;
 
 /// 10,000 cubes of different sizes at different heights, all above the camera.
@@ -392,15 +391,8 @@ class Checks {
 
 /// argv[1]: a folder for the pictures, if they are to be looked at.
 int main(int argc, char** argv) {
-  std::string why;
-  const std::unique_ptr<host::VulkanHost> vulkan = host::VulkanHost::open(why);
-  if (vulkan == nullptr) {
-    std::printf("skipped: %s\n", why.c_str());
-    return kSkipped;
-  }
-  gloam::FunctionLog log([](gloam::LogLevel level, std::string_view line) {
-    if (level >= gloam::LogLevel::warning) std::fprintf(stderr, "%.*s\n", static_cast<int>(line.size()), line.data());
-  });
+  const std::unique_ptr<host::VulkanHost> vulkan = host::VulkanHost::open_or_skip();
+  gloam::LogSink& log = host::warning_log();
   gpu::separate_driver_caches();
   gpu::HostDevice description = vulkan->describe();
   description.log = &log;

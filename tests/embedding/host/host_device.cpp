@@ -33,7 +33,6 @@ constexpr std::uint32_t kHeight = 120;
 
 using host::check;
 using host::fail;
-using host::kSkipped;
 using host::value_of;
 
 /// Two views: view 0 from the front, view 1 from the side at half the resolution.
@@ -174,15 +173,8 @@ void check_pool() {
 
 int main() {
   check_pool();
-  std::string why;
-  const std::unique_ptr<host::VulkanHost> vulkan = host::VulkanHost::open(why);
-  if (vulkan == nullptr) {
-    std::printf("skipped: %s\n", why.c_str());
-    return kSkipped;
-  }
-  gloam::FunctionLog log([](gloam::LogLevel level, std::string_view line) {
-    if (level >= gloam::LogLevel::warning) std::fprintf(stderr, "%.*s\n", static_cast<int>(line.size()), line.data());
-  });
+  const std::unique_ptr<host::VulkanHost> vulkan = host::VulkanHost::open_or_skip();
+  gloam::LogSink& log = host::warning_log();
   gpu::separate_driver_caches();
   check_refusal(*vulkan);
   const std::array<Bytes, 2> hosted = draw_on(*vulkan, log);

@@ -43,7 +43,6 @@ constexpr double kNear = 0.2, kFar = 80.0;  // of the host's projection
 
 using host::check;
 using host::fail;
-using host::kSkipped;
 using host::value_of;
 
 gloam::ViewSettings camera() {
@@ -193,15 +192,8 @@ class Stage {
 }  // namespace
 
 int main() {
-  std::string why;
-  const std::unique_ptr<host::VulkanHost> vulkan = host::VulkanHost::open(why);
-  if (vulkan == nullptr) {
-    std::printf("skipped: %s\n", why.c_str());
-    return kSkipped;
-  }
-  gloam::FunctionLog log([](gloam::LogLevel level, std::string_view line) {
-    if (level >= gloam::LogLevel::warning) std::fprintf(stderr, "%.*s\n", static_cast<int>(line.size()), line.data());
-  });
+  const std::unique_ptr<host::VulkanHost> vulkan = host::VulkanHost::open_or_skip();
+  gloam::LogSink& log = host::warning_log();
   gpu::separate_driver_caches();
   gpu::HostDevice description = vulkan->describe();
   description.log = &log;

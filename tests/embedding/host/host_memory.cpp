@@ -220,15 +220,8 @@ std::vector<std::uint8_t> draw(const gpu::HostDevice& description, const gloam::
 }  // namespace
 
 int main() {
-  std::string why;
-  const std::unique_ptr<host::VulkanHost> vulkan = host::VulkanHost::open(why);
-  if (vulkan == nullptr) {
-    std::printf("skipped: %s\n", why.c_str());
-    return host::kSkipped;
-  }
-  gloam::FunctionLog log([](gloam::LogLevel level, std::string_view line) {
-    if (level >= gloam::LogLevel::warning) std::fprintf(stderr, "%.*s\n", static_cast<int>(line.size()), line.data());
-  });
+  const std::unique_ptr<host::VulkanHost> vulkan = host::VulkanHost::open_or_skip();
+  gloam::LogSink& log = host::warning_log();
   gpu::separate_driver_caches();
   gpu::HostDevice description = vulkan->describe();
   description.log = &log;

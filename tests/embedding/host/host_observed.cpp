@@ -35,7 +35,6 @@ constexpr int kFrames = 6;
 
 using host::check;
 using host::fail;
-using host::kSkipped;
 using host::value_of;
 void expect(bool holds, const std::string& what) {
   if (!holds) fail("WRONG: " + what);
@@ -150,12 +149,7 @@ void check_names(const gloam::FrameReport& report) {
 
 /// argv[1]: a file for the trace.
 int main(int argc, char** argv) {
-  std::string why;
-  const std::unique_ptr<host::VulkanHost> vulkan = host::VulkanHost::open(why);
-  if (vulkan == nullptr) {
-    std::printf("skipped: %s\n", why.c_str());
-    return kSkipped;
-  }
+  const std::unique_ptr<host::VulkanHost> vulkan = host::VulkanHost::open_or_skip();
   gpu::separate_driver_caches();
   SortingLog log;
   gpu::HostDevice description = vulkan->describe();

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "vulkan_host.h"
 
+#include "checks.h"
+
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -123,6 +125,14 @@ bool VulkanHost::make_device(std::string& why) {
                                         .queueFamilyIndex = family_};
   require(vkCreateCommandPool(device_, &pool, nullptr, &pool_), "vkCreateCommandPool");
   return true;
+}
+
+std::unique_ptr<VulkanHost> VulkanHost::open_or_skip() {
+  std::string why;
+  std::unique_ptr<VulkanHost> opened = open(why);
+  if (opened != nullptr) return opened;
+  std::printf("skipped: %s\n", why.c_str());
+  std::exit(kSkipped);
 }
 
 std::unique_ptr<VulkanHost> VulkanHost::open(std::string& why) {

@@ -34,8 +34,8 @@ struct HostBuffer {
 /// libvulkan and calls its prototypes.
 class VulkanHost {
  public:
-  /// Returns null if the machine has no device that gloam can use; `why` then names what is missing.
-  static std::unique_ptr<VulkanHost> open(std::string& why);
+  /// Prints what is missing and exits with kSkipped if the machine has no device that gloam can use.
+  static std::unique_ptr<VulkanHost> open_or_skip();
   ~VulkanHost();
   VulkanHost(const VulkanHost&) = delete;
   VulkanHost& operator=(const VulkanHost&) = delete;
@@ -70,6 +70,8 @@ class VulkanHost {
 
  private:
   VulkanHost() = default;
+  /// Returns null if the machine has no device that gloam can use; `why` then names what is missing.
+  static std::unique_ptr<VulkanHost> open(std::string& why);
   bool make_instance(std::string& why);
   bool make_device(std::string& why);
   [[nodiscard]] VkDeviceMemory allocate(const VkMemoryRequirements& needs, VkMemoryPropertyFlags flags);
