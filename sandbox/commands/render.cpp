@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
+#include <chrono>
 #include <optional>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -58,6 +60,12 @@ ViewRequest request_of(const ViewSettings& view, const Options& options) {
   return {.settings = view, .target = {.width = options.width, .height = options.height}};
 }
 
+/// Budgets judge no frame while pipelines of other settings are made in the background. However long that takes, it
+/// must not use up the frames that were asked for.
+void wait_for_pipelines(Renderer& renderer) {
+  while (renderer.report().pipelines_pending > 0) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+}
+
 /// Draws a frame within the budget, if there is one. samples: the frames before it. Warns if no setting fits.
 Result<FrameSample> render_in_budget(Session& session, const CommandContext& context, ShownView& shown,
                                      const std::vector<FrameSample>& samples) {
@@ -67,6 +75,7 @@ Result<FrameSample> render_in_budget(Session& session, const CommandContext& con
     for (const BudgetDecision& told : add_frame_times(renderer, {.ms = last.wall_ms()}, last.report))
       if (told.decision.reason == GovernorReason::cannot_fit)
         context.log.warning(budget_text(told.decision, *renderer.budget(told.effect)));
+    if (has_budget(context.options)) wait_for_pipelines(renderer);
   }
   set_size(session, context.options, shown.view);
   return session.render_frame(request_of(shown.drawn(), context.options));

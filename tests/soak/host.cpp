@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "engine/render/pipelines/pipelines.h"
 #include "engine/scene/assets.h"
 #include "engine/scene/resources.h"
 #include "engine/scene/systems.h"
@@ -253,6 +254,9 @@ std::vector<std::uint8_t> Host::pictures() {
 }
 
 LiveBytes Host::live_bytes() {
+  // The host waits until pipelines that only earlier states used count as unused. The base state's are then asked for.
+  complete();
+  for (std::uint64_t i = 0; i < Pipelines::kUnusedFrames; ++i) check(renderer_->render(*world_, {}));
   settle();
   renderer_->free_idle_memory();
   const LiveHeap heap = live_heap();

@@ -6,7 +6,7 @@ import struct
 import zlib
 
 from program_case import ProgramCase, main
-from window_case import Picture
+from rgb_picture import Picture
 
 
 class Compare(ProgramCase):

@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 
 from program_case import ProgramCase, main
-from window_case import read_png
+from rgb_picture import read_png
 
 WIDTH, HEIGHT = 320, 180
 MODELS = Path("/usr/share/assimp/models/glTF2")  # package assimp-testmodels

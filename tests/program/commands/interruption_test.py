@@ -8,6 +8,7 @@ import subprocess
 import time
 
 from program_case import CACHE, ProgramCase, main
+from rgb_picture import Picture
 
 SMALL = ("--size", "16x16")
 # Every command that writes a file, with @ for the folder. `bench` and `bake --fit-proxies` need no device.
@@ -100,16 +101,21 @@ class Interruption(ProgramCase):
 
     # Hard case: program.signals
     def test_signals_end_every_command(self):
+        """But `play`, which answers within its frames: program.play and program.play_answers."""
+        Picture(2048, 2048, b"\x80" * 3 * 2048**2).write(self.folder / "large.png")
         for arguments in (("render", "builtin:plain", *SMALL, "--frames", "1000000", "--out", "p.png", "--stats", "s.json"),
                           ("bake", "builtin:wet_street", "--cache-dir", "cache"),
                           ("cost", "builtin:plain", *SMALL, "--out", "ledger"),
                           ("bench", "ecs", "--json", "b.json"),
-                          ("selftest", "--quick", "--out", "report")):
-            for seconds, number in ((0.02, signal.SIGINT), (0.4, signal.SIGTERM)):
+                          ("selftest", "--quick", "--out", "report"),
+                          ("compare", "large.png", "large.png"),
+                          ("inspect", "builtin:many_lights")):
+            late = 0.02 if arguments[0] == "inspect" else 0.4  # it ends soon
+            for seconds, number in ((0.02, signal.SIGINT), (late, signal.SIGTERM)):
                 with self.subTest(f"{arguments} after {seconds} s"):
                     begin = time.monotonic()
                     self.interrupt(arguments, number, lambda: time.monotonic() - begin > seconds)
-        self.assertEqual([name for name in self.left() if not name.startswith(("ledger/", "cache/"))], [])
+        self.assertEqual([name for name in self.left() if not name.startswith(("ledger/", "cache/"))], ["large.png"])
         self.assertEqual([name for name in self.left() if name.endswith(".partial")], [])
 
     # Hard case: program.signals

@@ -7,9 +7,9 @@ import math
 
 from gltf_scene import GltfScene
 from program_case import ProgramCase, main
+from rgb_picture import Picture, read_png
 from scale_test import closeup, fog, glass, lamp, lawn, lens, puddle, room, smoke, spot, sun, turned_about
 from scene_file import turned
-from window_case import Picture, read_png
 
 EFFECTS = {"lamp": lamp, "spot": spot, "sun": sun, "closeup": closeup, "fog": fog, "lens": lens, "puddle": puddle, "room": room,
            "glass": glass, "smoke": smoke, "lawn": lawn, "lawn in the sun": lambda: lawn(sun=True)}

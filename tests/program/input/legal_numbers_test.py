@@ -4,12 +4,10 @@
 import base64
 import itertools
 import math
-import struct
-import zlib
 
 from gltf_scene import FLOAT, UNSIGNED_SHORT, GltfScene, turn_x, turn_y
 from program_case import ProgramCase, main
-from window_case import read_png
+from rgb_picture import Picture, read_png
 
 ALL_KEYS = {"gloam.closeup": True, "gloam.ibr_proxy.size": [1, 1], "gloam.ibr_room.size": [4, 4, 4],
             "gloam.cube_probe.size": [4, 4, 4], "gloam.collider": "sphere", "gloam.collider.radius": 1,
@@ -20,12 +18,7 @@ FROM_ABOVE = {"rotation": turn_x(-64), "name": "sun"}  # shines down, and a litt
 
 def png(rgb):
     """A PNG of one pixel, as a data URI."""
-    def chunk(kind, body):
-        return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
-
-    whole = (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 1, 1, 8, 2, 0, 0, 0)) +
-             chunk(b"IDAT", zlib.compress(bytes([0, *rgb]))) + chunk(b"IEND", b""))
-    return "data:image/png;base64," + base64.b64encode(whole).decode()
+    return "data:image/png;base64," + base64.b64encode(Picture(1, 1, bytes(rgb)).png()).decode()
 
 
 def lit_card(**camera):

@@ -8,8 +8,8 @@ import json
 import math
 
 from program_case import LONG, ProgramCase, main
+from rgb_picture import Picture, read_png
 from scene_file import scaled_keys, turned
-from window_case import Picture, read_png
 
 # Cases that are one surface and one light, and those of whole scenes. Grass, the wind and lenses have metres.
 SURFACES = ("double-sided-bent-normals/front_0/t40_front_0", "double-sided-bent-normals/front_1/t40_front_1",

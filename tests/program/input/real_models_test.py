@@ -5,7 +5,7 @@ Debian's package assimp-testmodels."""
 from pathlib import Path
 
 from program_case import ProgramCase, main
-from window_case import read_png
+from rgb_picture import read_png
 
 MODELS = Path("/usr/share/assimp/models/glTF2")
 WIDTH, HEIGHT = 160, 90

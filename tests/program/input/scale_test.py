@@ -6,8 +6,8 @@ import json
 import math
 
 from program_case import LONG, ProgramCase, main
+from rgb_picture import read_png
 from scene_file import SceneFile, turned
-from window_case import read_png
 
 SCALES = (0.001, 0.01, 100.0, 1000.0) if LONG else (0.001, 1000.0)
 PLACES = (10.0, 1e3, 1e5, 1e6) if LONG else (1e5, 1e6)  # metres from the origin

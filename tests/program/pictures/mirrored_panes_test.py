@@ -4,8 +4,8 @@
 import math
 
 from program_case import ProgramCase, main
+from rgb_picture import read_png
 from scene_file import SceneFile, turned
-from window_case import read_png
 
 WIDTH, HEIGHT, YFOV = 192, 128, 0.8
 EYE, TILT = (0.0, 1.2, 3.0), -0.25

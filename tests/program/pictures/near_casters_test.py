@@ -4,8 +4,8 @@
 import math
 
 from program_case import ProgramCase, main
+from rgb_picture import read_png
 from scene_file import DOWN, SceneFile, turned
-from window_case import read_png
 
 WIDTH, HEIGHT, YFOV = 120, 80, 0.8
 LAMP, EYE, TILT = (0.0, 1.5, 0.0), (0.0, 1.2, 2.2), -0.5

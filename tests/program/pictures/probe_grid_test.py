@@ -4,8 +4,8 @@
 import re
 
 from program_case import ProgramCase, main
+from rgb_picture import read_png
 from scene_file import SceneFile, turned
-from window_case import read_png
 
 
 def scene_with_a_red_wall():

@@ -9,7 +9,7 @@ import struct
 
 from gltf_scene import TRIANGLE
 from program_case import ProgramCase, main
-from window_case import read_png
+from rgb_picture import read_png
 
 SMALL = ("--size", "160x90")
 NO_SHADOWS = ("--set", "shadows.mode=off")  # for tests in which shadows only take time

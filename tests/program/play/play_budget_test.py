@@ -7,7 +7,8 @@ from pathlib import Path
 
 from budget_ledger import make_ledger
 from program_case import main
-from window_case import WindowCase, read_png
+from rgb_picture import read_png
+from window_case import WindowCase
 
 SCENE, WIDTH, HEIGHT = "builtin:shadows", 1000, 500
 TALL = 940  # of a window whose panel shows a knob that was searched for

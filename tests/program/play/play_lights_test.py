@@ -9,7 +9,8 @@ import shutil
 import struct
 
 from program_case import main
-from window_case import WindowCase, read_png
+from rgb_picture import read_png
+from window_case import WindowCase
 
 WIDTH, HEIGHT, PANEL = 760, 740, 480  # PANEL: columns that the panel covers
 DISTANCE_M, FOV_Y = 4.0, 0.8  # of the camera from the plane of the lamp

@@ -8,8 +8,9 @@ import signal
 import sys
 
 import virtual_display
+from rgb_picture import Picture, read_png
 from program_case import main
-from window_case import Picture, WindowCase, read_png
+from window_case import WindowCase
 
 PREFIX = (sys.executable, "-B", virtual_display.__file__, "800x600")
 

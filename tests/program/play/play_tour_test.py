@@ -7,7 +7,8 @@ import shutil
 import struct
 
 from program_case import main
-from window_case import FileDrop, WindowCase, read_png
+from rgb_picture import read_png
+from window_case import FileDrop, WindowCase
 
 SIZE = ("--size", "240x135", "--scale", "1")
 

@@ -13,7 +13,7 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-from window_case import Picture, read_png
+from rgb_picture import Picture, read_png
 
 LEGEND_ROWS = 24  # at the lower edge of a view's picture
 
