@@ -144,6 +144,7 @@ void Renderer::free_idle_memory() {
   parts_->check_idle("free_idle_memory");
   static_cast<void>(wait());
   parts_->resources.graph.free_idle_memory();
+  parts_->resources.declared.recordings.free_idle_memory();
   parts_->resources.free_staging();
   for (const auto& module : modules()) module->free_idle_memory();
   parts_->resources.pipelines.release_unused();

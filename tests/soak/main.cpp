@@ -17,6 +17,7 @@
 #include <exception>
 #include <fstream>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -86,6 +87,7 @@ class Run {
  public:
   Run(const Arguments& arguments, Host& host)
       : arguments_(arguments), host_(host), csv_(std::fopen((arguments.folder + "/memory.csv").c_str(), "w")) {
+    if (csv_ == nullptr) throw std::runtime_error(arguments.folder + " is no folder that can be written");
     std::fprintf(csv_, "frames,heap,libraries,driver_heap,device,malloc,resident\n");
   }
   ~Run() { std::fclose(csv_); }

@@ -20,6 +20,23 @@ void Recording::clear(std::string_view new_name) {
   failed = false;
 }
 
+void Recording::shrink() {
+  name.shrink_to_fit();
+  items.shrink_to_fit();
+  in_force.shrink_to_fit();
+  bound.shrink_to_fit();
+  pushes.shrink_to_fit();
+  steps.shrink_to_fit();
+  functions.shrink_to_fit();
+  surface_passes.shrink_to_fit();
+  colors.shrink_to_fit();
+}
+
+void Recordings::free_idle_memory() {
+  all_.resize(used_);
+  for (const auto& recording : all_) recording->shrink();
+}
+
 Recording& Recordings::next(std::string_view name) {
   if (used_ == all_.size()) all_.push_back(std::make_unique<Recording>());
   Recording& recording = *all_[used_++];

@@ -93,6 +93,8 @@ struct Recording {
   bool failed = false;
 
   void clear(std::string_view new_name);
+  /// Gives back memory that the pass does not need. What it records stays.
+  void shrink();
 };
 
 /// Recordings of the current frame.
@@ -101,6 +103,8 @@ class Recordings {
   /// Call it after the graph has dropped the pass functions of the last frame.
   void begin_frame() { used_ = 0; }
   [[nodiscard]] Recording& next(std::string_view name);
+  /// Between frames: gives back memory that the last frame did not need.
+  void free_idle_memory();
 
  private:
   std::vector<std::unique_ptr<Recording>> all_;
