@@ -33,6 +33,8 @@ struct VulkanOptions {
   std::size_t retained_pipelines = 0;
   LogSink* log = nullptr;  ///< must outlive the device; null: nothing is logged
   MemoryOptions memory;
+  /// vkGetInstanceProcAddr of a Vulkan loader that the caller has opened; null: of the system's libvulkan.
+  void (*get_instance_proc_addr)() = nullptr;
   /// The instance extensions that the window system requires; empty: no window.
   std::vector<std::string> window_extensions;
   /// Creates a surface of the window, as for create_swapchain; called once, and the surface is destroyed after the

@@ -10,6 +10,7 @@
 #include <malloc.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -118,10 +119,16 @@ class Run {
   }
 
  private:
-  /// Checkpoints lie in the middle of equal shares of all steps.
+  /// There is one in each of equal shares of all steps, each at another part of its share: a share may be a whole
+  /// number of cycles, which all begin and end alike.
   [[nodiscard]] bool is_checkpoint(std::uint64_t step, std::uint64_t all) const {
-    const auto before = [&](std::uint64_t place) { return (2 * place * arguments_.checkpoints + all) / (2 * all); };
-    return before(step + 1) > before(step);
+    if (arguments_.checkpoints == 0) return false;
+    constexpr double kGoldenRatio = 0.6180339887498949;
+    const std::uint64_t share = step * arguments_.checkpoints / all;
+    const double part = kGoldenRatio * static_cast<double>(share + 1);
+    const double place = static_cast<double>(share) + part - std::floor(part);
+    const double steps = static_cast<double>(all) / static_cast<double>(arguments_.checkpoints);
+    return step == static_cast<std::uint64_t>(place * steps);
   }
   void run_cycle(const std::vector<Step>& steps, std::uint64_t cycle, std::uint64_t cycles) {
     std::uint64_t number = cycle * steps.size();

@@ -32,7 +32,7 @@ State* state = nullptr;
 
 constexpr std::string_view kCanLose[] = {"vkDeviceWaitIdle", "vkGetQueryPoolResults", "vkQueueSubmit2",
                                          "vkQueueWaitIdle",  "vkWaitSemaphores",      "vkGetSemaphoreCounterValue",
-                                         "vkGetFenceStatus"};
+                                         "vkGetFenceStatus", "vkAcquireNextImageKHR", "vkQueuePresentKHR"};
 
 bool can_lose(std::string_view function) { return std::ranges::find(kCanLose, function) != std::end(kCanLose); }
 
@@ -107,6 +107,17 @@ PFN_vkVoidFunction hook(const char* name, PFN_vkVoidFunction real) {
   }
 }
 
+// Functions of one signature have hooks of their own: Place tells them apart.
+enum Place {
+#define GLOAM_PLACE(function) place_##function,
+  GLOAM_VULKAN_GLOBAL_FUNCTIONS(GLOAM_PLACE) GLOAM_VULKAN_INSTANCE_FUNCTIONS(GLOAM_PLACE)
+      GLOAM_VULKAN_OPTIONAL_INSTANCE_FUNCTIONS(GLOAM_PLACE) GLOAM_VULKAN_DEVICE_FUNCTIONS(GLOAM_PLACE)
+          GLOAM_VULKAN_OPTIONAL_DEVICE_FUNCTIONS(GLOAM_PLACE)
+#undef GLOAM_PLACE
+};
+#define GLOAM_HOOK(function) \
+  if (text == #function) return hook<Hook<PFN_##function, place_##function>, PFN_##function>(#function, real);
+
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL device_function(VkDevice device, const char* name) {
   const PFN_vkVoidFunction real = state->next_of_device(device, name);
   if (real == nullptr) return nullptr;
@@ -114,25 +125,25 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL device_function(VkDevice device, const 
   const std::string_view text(name);
   if (text == "vkFreeDescriptorSets" || text == "vkResetDescriptorPool") return real;  // they never fail
   if (text == "vkDeviceWaitIdle") state->wait_idle = reinterpret_cast<PFN_vkDeviceWaitIdle>(real);
-  // Functions of one signature have hooks of their own: Place tells them apart.
-  enum Place {
-#define GLOAM_PLACE(function) place_##function,
-    GLOAM_VULKAN_DEVICE_FUNCTIONS(GLOAM_PLACE)
-#undef GLOAM_PLACE
-  };
-#define GLOAM_HOOK(function) \
-  if (text == #function) return hook<Hook<PFN_##function, place_##function>, PFN_##function>(#function, real);
   GLOAM_VULKAN_DEVICE_FUNCTIONS(GLOAM_HOOK)
-#undef GLOAM_HOOK
+  GLOAM_VULKAN_OPTIONAL_DEVICE_FUNCTIONS(GLOAM_HOOK)
   return real;
 }
 
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL instance_function(VkInstance instance, const char* name) {
   const PFN_vkVoidFunction real = state->next(instance, name);
-  if (std::string_view(name) != "vkGetDeviceProcAddr") return real;
-  state->next_of_device = reinterpret_cast<PFN_vkGetDeviceProcAddr>(real);
-  return reinterpret_cast<PFN_vkVoidFunction>(&device_function);
+  const std::string_view text(name);
+  if (real == nullptr || text == "vkSetDebugUtilsObjectNameEXT") return real;  // a name that is missing harms nothing
+  if (text == "vkGetDeviceProcAddr") {
+    state->next_of_device = reinterpret_cast<PFN_vkGetDeviceProcAddr>(real);
+    return reinterpret_cast<PFN_vkVoidFunction>(&device_function);
+  }
+  GLOAM_VULKAN_GLOBAL_FUNCTIONS(GLOAM_HOOK)
+  GLOAM_VULKAN_INSTANCE_FUNCTIONS(GLOAM_HOOK)
+  GLOAM_VULKAN_OPTIONAL_INSTANCE_FUNCTIONS(GLOAM_HOOK)
+  return real;
 }
+#undef GLOAM_HOOK
 
 }  // namespace
 

@@ -10,7 +10,7 @@
 
 namespace gloam::test {
 
-/// Makes one call of a device function fail, seen by a vkGetInstanceProcAddr between gloam and the loader (or another
+/// Makes one call of Vulkan fail, seen by a vkGetInstanceProcAddr between gloam and the loader (or another
 /// hook of it). Only functions that return a VkResult count as calls. Thread-safe. One object at a time.
 ///
 /// The function that fails is not called, and leaves handles that make no sense, because Vulkan leaves them undefined;
@@ -24,7 +24,7 @@ class FailingCalls {
   FailingCalls(const FailingCalls&) = delete;
   FailingCalls& operator=(const FailingCalls&) = delete;
 
-  /// For HostDevice::get_instance_proc_addr.
+  /// For get_instance_proc_addr of HostDevice and VulkanOptions.
   [[nodiscard]] static PFN_vkGetInstanceProcAddr loader();
 
   struct Call {

@@ -7,6 +7,7 @@
 
 #include "engine/gpu/vulkan/convert.h"
 #include "engine/gpu/vulkan/errors.h"
+#include "engine/gpu/vulkan/startup/listed.h"
 
 namespace gloam::gpu {
 namespace vulkan {
@@ -23,14 +24,18 @@ Status VulkanSwapchain::check_surface() {
   const InstanceFunctions& f = context.instance_functions();
   const VkPhysicalDevice physical = context.physical.handle;
   VkBool32 supported = VK_FALSE;
-  f.vkGetPhysicalDeviceSurfaceSupportKHR(physical, context.physical.queue_family, surface_, &supported);
+  VkResult result =
+      f.vkGetPhysicalDeviceSurfaceSupportKHR(physical, context.physical.queue_family, surface_, &supported);
+  if (result != VK_SUCCESS)
+    return failure("The device could not be asked whether it can draw into this window", result);
   if (supported != VK_TRUE) {
     return Error{ErrorKind::no_device, "The device " + context.physical.info.name + " cannot draw into this window"};
   }
-  std::uint32_t count = 0;
-  f.vkGetPhysicalDeviceSurfaceFormatsKHR(physical, surface_, &count, nullptr);
-  std::vector<VkSurfaceFormatKHR> formats(count);
-  f.vkGetPhysicalDeviceSurfaceFormatsKHR(physical, surface_, &count, formats.data());
+  std::vector<VkSurfaceFormatKHR> formats;
+  result = list_all(formats, [&](std::uint32_t* count, VkSurfaceFormatKHR* items) {
+    return f.vkGetPhysicalDeviceSurfaceFormatsKHR(physical, surface_, count, items);
+  });
+  if (result != VK_SUCCESS) return failure("The window's picture formats could not be listed", result);
   for (const Format wanted : {Format::bgra8_unorm, Format::rgba8_unorm}) {
     for (const VkSurfaceFormatKHR& format : formats) {
       if (format.format != to_vulkan(wanted) || format.colorSpace != VK_COLOR_SPACE_SRGB_NONLINEAR_KHR) continue;
@@ -60,6 +65,18 @@ Status VulkanSwapchain::make_acquire_semaphores() {
   return {};
 }
 
+/// No frame has waited for the semaphore of the acquired picture: it stays signalled.
+Status VulkanSwapchain::replace_ready() {
+  const auto place = std::ranges::find(available_, ready_);
+  if (place == available_.end()) return {};  // of a picture, and goes with it
+  const Result<VkSemaphore> made = make_semaphore("picture available");
+  if (!made) return made.error();
+  Context& context = device_.context();
+  context.vk.vkDestroySemaphore(context.device, *place, context.allocation);
+  *place = *made;
+  return {};
+}
+
 Status VulkanSwapchain::resize(std::uint32_t width, std::uint32_t height) {
   GLOAM_ASSERT(!device_.frames().recording(), "a window is resized between frames");
   GLOAM_TRY(device_.wait_idle());
@@ -67,8 +84,10 @@ Status VulkanSwapchain::resize(std::uint32_t width, std::uint32_t height) {
   {
     // The display may still read the last image. Only when the whole queue is idle has presentation finished.
     const std::lock_guard lock(context.queue_mutex());
-    context.vk.vkQueueWaitIdle(context.queue);
+    const VkResult idle = context.vk.vkQueueWaitIdle(context.queue);
+    if (idle != VK_SUCCESS) return failure("The window's pictures could not be waited for", idle);
   }
+  if (acquired_unsubmitted()) GLOAM_TRY(replace_ready());
   forget_images();
   stale_ = true;
   if (width == 0 || height == 0) return {};
@@ -118,10 +137,11 @@ Status VulkanSwapchain::make_swapchain(const VkSurfaceCapabilitiesKHR& capabilit
 
 Status VulkanSwapchain::adopt_images(VkExtent2D extent) {
   Context& context = device_.context();
-  std::uint32_t count = 0;
-  context.vk.vkGetSwapchainImagesKHR(context.device, swapchain_, &count, nullptr);
-  std::vector<VkImage> images(count);
-  context.vk.vkGetSwapchainImagesKHR(context.device, swapchain_, &count, images.data());
+  std::vector<VkImage> images;
+  const VkResult result = list_all(images, [&](std::uint32_t* count, VkImage* items) {
+    return context.vk.vkGetSwapchainImagesKHR(context.device, swapchain_, count, items);
+  });
+  if (result != VK_SUCCESS) return failure("The window's pictures could not be listed", result);
   for (VkImage image : images) {
     const ImageDesc desc = {.name = "window picture " + std::to_string(images_.size()),
                             .module = "engine",
@@ -147,15 +167,29 @@ void VulkanSwapchain::forget_images() {
   acquired_ = kNone;
 }
 
+bool VulkanSwapchain::acquired_unsubmitted() { return acquired_ != kNone && device_.frames().number() == frame_; }
+
+/// The frame waits for this semaphore before it draws to the acquired picture.
+ImageHandle VulkanSwapchain::use_acquired(VkSemaphore ready) {
+  Frames& frames = device_.frames();
+  ready_ = ready;
+  frame_ = frames.number();
+  begun_ = frames.begun();
+  frames.wait_for(ready);
+  frames.signal(rendered_[acquired_]);
+  return images_[acquired_];
+}
+
 Result<ImageHandle> VulkanSwapchain::acquire() {
   Frames& frames = device_.frames();
   GLOAM_ASSERT(frames.recording(), "a picture is acquired while a frame is recorded");
+  GLOAM_ASSERT(acquired_ == kNone || begun_ != frames.begun(), "a picture is acquired once in a frame");
+  // A frame whose submission failed has the number of the next one, and has waited for nothing.
+  if (acquired_unsubmitted()) return use_acquired(ready_);
   if (acquired_ != kNone) {
     GLOAM_ASSERT(frames.last_discarded(), "a picture is presented before the next one is acquired");
     // The frame that acquired this picture was abandoned. Its empty submission has signalled the semaphore.
-    frames.wait_for(rendered_[acquired_]);
-    frames.signal(rendered_[acquired_]);
-    return images_[acquired_];
+    return use_acquired(rendered_[acquired_]);
   }
   if (stale_) return ImageHandle();
   Context& context = device_.context();
@@ -169,13 +203,11 @@ Result<ImageHandle> VulkanSwapchain::acquire() {
   }
   if (result != VK_SUCCESS && result != VK_SUBOPTIMAL_KHR) return failure("The window gave no picture", result);
   acquired_ = index;
-  frames.wait_for(available);
-  frames.signal(rendered_[index]);
-  return images_[index];
+  return use_acquired(available);
 }
 
 Status VulkanSwapchain::present() {
-  if (acquired_ == kNone) return {};
+  if (acquired_ == kNone || acquired_unsubmitted()) return {};
   Context& context = device_.context();
   const VkPresentInfoKHR info = {.sType = VK_STRUCTURE_TYPE_PRESENT_INFO_KHR,
                                  .waitSemaphoreCount = 1,
@@ -193,13 +225,16 @@ Status VulkanSwapchain::present() {
     stale_ = true;
     return {};
   }
-  if (result != VK_SUCCESS) return failure("The picture could not be shown", result);
-  return {};
+  if (result == VK_SUCCESS) return {};
+  // The picture may still wait to be shown, and its semaphore may be signalled: neither can be used again.
+  stale_ = true;
+  return failure("The picture could not be shown", result);
 }
 
 VulkanSwapchain::~VulkanSwapchain() {
   Context& context = device_.context();
-  context.vk.vkDeviceWaitIdle(context.device);
+  device_.frames().wait_at_end();
+  if (context.vk.vkDeviceWaitIdle(context.device) != VK_SUCCESS) context.vk.vkQueueWaitIdle(context.queue);
   forget_images();
   for (VkSemaphore semaphore : available_) context.vk.vkDestroySemaphore(context.device, semaphore, context.allocation);
   context.vk.vkDestroySwapchainKHR(context.device, swapchain_, context.allocation);

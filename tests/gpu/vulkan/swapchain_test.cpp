@@ -4,41 +4,23 @@
 
 #include <gtest/gtest.h>
 
-#define GLFW_INCLUDE_VULKAN
-#include <GLFW/glfw3.h>
-
 #include <cstdint>
 #include <memory>
-#include <string>
+#include <utility>
 
-#include "tests/support/gpu_device.h"
+#include "tests/gpu/vulkan/test_window.h"
 
 namespace gloam::gpu {
 namespace {
 
-/// A window on the display of the environment.
 class WindowTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    ASSERT_EQ(glfwInit(), GLFW_TRUE) << "there is no display: run under Xvfb";
-    if (glfwVulkanSupported() != GLFW_TRUE) GTEST_SKIP() << "there is no usable Vulkan device on this machine";
-    glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
-    window_ = glfwCreateWindow(200, 100, "test", nullptr, nullptr);
-    ASSERT_NE(window_, nullptr);
-    std::uint32_t count = 0;
-    const char** names = glfwGetRequiredInstanceExtensions(&count);
-    const auto create_surface = [this](void* instance) -> std::uint64_t {
-      VkSurfaceKHR surface = VK_NULL_HANDLE;
-      glfwCreateWindowSurface(static_cast<VkInstance>(instance), window_, nullptr, &surface);
-      return (std::uint64_t)surface;
-    };
-    auto made = create_vulkan_device({.validate = true,
-                                      .log = &test::gpu_log(),
-                                      .window_extensions = {names, names + count},
-                                      .create_surface = create_surface});
+    if (window_.get() == nullptr) GTEST_SKIP() << "there is no display, or no usable Vulkan device on this machine";
+    auto made = create_vulkan_device(window_.options());
     if (!made) GTEST_SKIP() << made.error().message;
     device_ = std::move(*made);
-    auto swapchain = create_swapchain(*device_, create_surface);
+    auto swapchain = create_swapchain(*device_, window_.options().create_surface);
     ASSERT_TRUE(swapchain.ok()) << swapchain.error().message;
     swapchain_ = std::move(*swapchain);
   }
@@ -48,8 +30,6 @@ class WindowTest : public ::testing::Test {
       EXPECT_EQ(device_->validation_messages(), 0u);
     }
     device_.reset();
-    if (window_ != nullptr) glfwDestroyWindow(window_);
-    glfwTerminate();
   }
 
   /// Shows one frame of one colour; returns its image, or none if there is nothing to draw to.
@@ -70,7 +50,7 @@ class WindowTest : public ::testing::Test {
     return *image;
   }
 
-  GLFWwindow* window_ = nullptr;
+  TestWindow window_;
   std::unique_ptr<Device> device_;
   std::unique_ptr<Swapchain> swapchain_;
 };
@@ -109,12 +89,12 @@ TEST_F(WindowTest, follows_a_new_size_and_gives_nothing_while_minimised) {
   EXPECT_TRUE(show());
   ASSERT_TRUE(swapchain_->resize(0, 0).ok());
   EXPECT_FALSE(show());
-  glfwSetWindowSize(window_, 320, 240);
+  glfwSetWindowSize(window_.get(), 320, 240);
   glfwPollEvents();
   for (int attempt = 0; attempt < 50; ++attempt) {
     int width = 0;
     int height = 0;
-    glfwGetFramebufferSize(window_, &width, &height);
+    glfwGetFramebufferSize(window_.get(), &width, &height);
     ASSERT_TRUE(swapchain_->resize(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)).ok());
     const ImageHandle image = show();
     if (image && device_->desc(image).width == 320) return;

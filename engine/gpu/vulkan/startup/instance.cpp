@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/gpu/vulkan/errors.h"
+#include "engine/gpu/vulkan/startup/listed.h"
 
 namespace gloam::gpu::vulkan {
 namespace {
@@ -16,21 +17,59 @@ namespace {
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 constexpr const char* kDebugUtils = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
 
-bool layer_installed(const GlobalFunctions& f, const char* name) {
-  std::uint32_t count = 0;
-  f.vkEnumerateInstanceLayerProperties(&count, nullptr);
-  std::vector<VkLayerProperties> layers(count);
-  f.vkEnumerateInstanceLayerProperties(&count, layers.data());
-  return std::any_of(layers.begin(), layers.end(), [&](const auto& l) { return std::strcmp(l.layerName, name) == 0; });
+Result<bool> layer_installed(const GlobalFunctions& f, const char* name) {
+  std::vector<VkLayerProperties> layers;
+  const VkResult result = list_all(layers, f.vkEnumerateInstanceLayerProperties);
+  if (result != VK_SUCCESS) return failure("Vulkan could not list its layers", result);
+  return std::ranges::any_of(layers, [&](const auto& layer) { return std::strcmp(layer.layerName, name) == 0; });
 }
 
-bool extension_available(const GlobalFunctions& f, const char* name) {
-  std::uint32_t count = 0;
-  f.vkEnumerateInstanceExtensionProperties(nullptr, &count, nullptr);
-  std::vector<VkExtensionProperties> extensions(count);
-  f.vkEnumerateInstanceExtensionProperties(nullptr, &count, extensions.data());
-  return std::any_of(extensions.begin(), extensions.end(),
-                     [&](const auto& e) { return std::strcmp(e.extensionName, name) == 0; });
+Result<std::vector<VkExtensionProperties>> available_extensions(const GlobalFunctions& f) {
+  std::vector<VkExtensionProperties> extensions;
+  const VkResult result = list_all(extensions, [&](std::uint32_t* count, VkExtensionProperties* items) {
+    return f.vkEnumerateInstanceExtensionProperties(nullptr, count, items);
+  });
+  if (result != VK_SUCCESS) return failure("Vulkan could not list its extensions", result);
+  return extensions;
+}
+
+Status check_version(const GlobalFunctions& f) {
+  std::uint32_t version = 0;
+  const VkResult result = f.vkEnumerateInstanceVersion(&version);
+  if (result != VK_SUCCESS) return failure("Vulkan could not tell its version", result);
+  if (version >= VK_API_VERSION_1_3) return {};
+  return Error{ErrorKind::no_device, "The Vulkan loader is older than version 1.3"};
+}
+
+/// The extensions and layers to enable.
+struct Enabled {
+  std::vector<const char*> extensions, layers;
+};
+Result<Enabled> choose_enabled(const GlobalFunctions& f, const VulkanOptions& options) {
+  const auto available = available_extensions(f);
+  if (!available) return available.error();
+  const auto has = [&](const char* name) {
+    return std::ranges::any_of(*available, [&](const auto& e) { return std::strcmp(e.extensionName, name) == 0; });
+  };
+  Enabled enabled;
+  for (const std::string& name : options.window_extensions) {
+    if (!has(name.c_str())) {
+      return Error{ErrorKind::no_device, "The window needs the Vulkan extension " + name + ", which is not there"};
+    }
+    enabled.extensions.push_back(name.c_str());
+  }
+  if (options.validate) {
+    const Result<bool> installed = layer_installed(f, kValidationLayer);
+    if (!installed) return installed.error();
+    if (!*installed) {
+      return Error{ErrorKind::failed, std::string("Validation was asked for, but the layer ") + kValidationLayer +
+                                          " is not installed (package vulkan-validationlayers)"};
+    }
+    enabled.layers.push_back(kValidationLayer);
+    enabled.extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
+  }
+  if (options.validate || has(kDebugUtils)) enabled.extensions.push_back(kDebugUtils);
+  return enabled;
 }
 
 }  // namespace
@@ -57,36 +96,18 @@ Status Instance::load_functions(PFN_vkGetInstanceProcAddr get) {
 }
 
 Status Instance::make(const VulkanOptions& options) {
-  const PFN_vkGetInstanceProcAddr loader = find_loader();
+  const PFN_vkGetInstanceProcAddr loader =
+      options.get_instance_proc_addr != nullptr
+          ? reinterpret_cast<PFN_vkGetInstanceProcAddr>(options.get_instance_proc_addr)
+          : find_loader();
   if (loader == nullptr) {
     return Error{ErrorKind::no_device, "There is no Vulkan loader (libvulkan) on this machine"};
   }
   const Result<GlobalFunctions> global = load_global_functions(loader);
   if (!global) return global.error();
-  std::uint32_t version = 0;
-  global->vkEnumerateInstanceVersion(&version);
-  if (version < VK_API_VERSION_1_3) {
-    return Error{ErrorKind::no_device, "The Vulkan loader is older than version 1.3"};
-  }
-  std::vector<const char*> extensions;
-  for (const std::string& name : options.window_extensions) {
-    if (!extension_available(*global, name.c_str())) {
-      return Error{ErrorKind::no_device, "The window needs the Vulkan extension " + name + ", which is not there"};
-    }
-    extensions.push_back(name.c_str());
-  }
-  std::vector<const char*> layers;
-  if (options.validate) {
-    if (!layer_installed(*global, kValidationLayer)) {
-      return Error{ErrorKind::failed, std::string("Validation was asked for, but the layer ") + kValidationLayer +
-                                          " is not installed (package vulkan-validationlayers)"};
-    }
-    layers.push_back(kValidationLayer);
-    extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
-  }
-  const bool debug_utils = options.validate || extension_available(*global, kDebugUtils);
-  if (debug_utils) extensions.push_back(kDebugUtils);
-
+  GLOAM_TRY(check_version(*global));
+  const Result<Enabled> enable = choose_enabled(*global, options);
+  if (!enable) return enable.error();
   const VkApplicationInfo application = {.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
                                          .pApplicationName = "gloam",
                                          .pEngineName = "gloam",
@@ -98,10 +119,10 @@ Status Instance::make(const VulkanOptions& options) {
   const VkInstanceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
                                      .pNext = options.validate ? &features : nullptr,
                                      .pApplicationInfo = &application,
-                                     .enabledLayerCount = static_cast<std::uint32_t>(layers.size()),
-                                     .ppEnabledLayerNames = layers.data(),
-                                     .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
-                                     .ppEnabledExtensionNames = extensions.data()};
+                                     .enabledLayerCount = static_cast<std::uint32_t>(enable->layers.size()),
+                                     .ppEnabledLayerNames = enable->layers.data(),
+                                     .enabledExtensionCount = static_cast<std::uint32_t>(enable->extensions.size()),
+                                     .ppEnabledExtensionNames = enable->extensions.data()};
   const VkResult result = null_on_failure(global->vkCreateInstance(&info, nullptr, &instance_), instance_);
   if (result == VK_ERROR_INCOMPATIBLE_DRIVER) {
     return Error{ErrorKind::no_device, "No Vulkan driver is installed on this machine"};

@@ -6,9 +6,11 @@
 #include <cctype>
 #include <cstring>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "engine/gpu/vulkan/errors.h"
+#include "engine/gpu/vulkan/startup/listed.h"
 
 namespace gloam::gpu::vulkan {
 namespace {
@@ -60,13 +62,21 @@ void add(std::string& list, std::string_view item) {
   list += item;
 }
 
-bool has_extension(const InstanceFunctions& f, VkPhysicalDevice device, const char* name) {
-  std::uint32_t count = 0;
-  f.vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr);
-  std::vector<VkExtensionProperties> extensions(count);
-  f.vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data());
-  return std::any_of(extensions.begin(), extensions.end(),
-                     [&](const auto& e) { return std::strcmp(e.extensionName, name) == 0; });
+/// The extensions of a device that gloam may use.
+struct Extensions {
+  bool swapchain = false, push_descriptors = false;
+};
+/// Returns what has failed, or nothing.
+std::string find_extensions(const InstanceFunctions& f, VkPhysicalDevice device, Extensions& found) {
+  std::vector<VkExtensionProperties> all;
+  const VkResult result = list_all(all, [&](std::uint32_t* count, VkExtensionProperties* items) {
+    return f.vkEnumerateDeviceExtensionProperties(device, nullptr, count, items);
+  });
+  for (const VkExtensionProperties& extension : all) {
+    found.swapchain |= std::strcmp(extension.extensionName, VK_KHR_SWAPCHAIN_EXTENSION_NAME) == 0;
+    found.push_descriptors |= std::strcmp(extension.extensionName, VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME) == 0;
+  }
+  return result == VK_SUCCESS ? std::string() : "a list of its extensions: " + describe(result);
 }
 
 constexpr std::uint32_t kLlvmpipeLanes[] = {4, 8};  ///< vectors that llvmpipe tests depth with
@@ -74,7 +84,6 @@ constexpr std::uint32_t kLlvmpipeLanes[] = {4, 8};  ///< vectors that llvmpipe t
 void read_properties(const InstanceFunctions& f, PhysicalDevice& device) {
   VkPhysicalDevicePushDescriptorPropertiesKHR push = {
       .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PUSH_DESCRIPTOR_PROPERTIES_KHR};
-  device.push_descriptors = has_extension(f, device.handle, VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
   VkPhysicalDeviceVulkan11Properties v11 = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES,
                                             .pNext = device.push_descriptors ? &push : nullptr};
   VkPhysicalDeviceVulkan12Properties v12 = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_PROPERTIES,
@@ -125,25 +134,25 @@ bool take_queue_family(PhysicalDevice& device, std::span<const VkQueueFamilyProp
   return true;
 }
 
-bool presents_to(const InstanceFunctions& f, VkPhysicalDevice device, std::uint32_t family, VkSurfaceKHR surface) {
-  VkBool32 supported = VK_FALSE;
-  const VkResult result = f.vkGetPhysicalDeviceSurfaceSupportKHR(device, family, surface, &supported);
-  return result == VK_SUCCESS && supported == VK_TRUE;
-}
-
 /// Takes the first queue family for graphics and compute that presents to the window, if there is one. Returns what
 /// the device lacks, or nothing.
-std::string_view find_queue_family(const InstanceFunctions& f, PhysicalDevice& device, const WindowNeeds& window) {
+std::string find_queue_family(const InstanceFunctions& f, PhysicalDevice& device, const WindowNeeds& window) {
   const std::vector<VkQueueFamilyProperties> families = queue_families(f, device.handle);
-  bool draws = false;
+  std::string lacks = "a queue for graphics and compute";
   for (std::uint32_t i = 0; i < families.size(); ++i) {
     if (!can_draw(families, i)) continue;
-    draws = true;
-    if (window.surface != VK_NULL_HANDLE && !presents_to(f, device.handle, i, window.surface)) continue;
-    static_cast<void>(take_queue_family(device, families, i));
-    return {};
+    VkBool32 presents = VK_TRUE;
+    VkResult result = VK_SUCCESS;
+    if (window.surface != VK_NULL_HANDLE)
+      result = f.vkGetPhysicalDeviceSurfaceSupportKHR(device.handle, i, window.surface, &presents);
+    if (result == VK_SUCCESS && presents == VK_TRUE) {
+      static_cast<void>(take_queue_family(device, families, i));
+      return {};
+    }
+    lacks = "a queue that can present to this window";
+    if (result != VK_SUCCESS) lacks += ": " + describe(result);
   }
-  return draws ? "a queue that can present to this window" : "a queue for graphics and compute";
+  return lacks;
 }
 
 constexpr std::uint32_t kLeastUniformRange = 65536;
@@ -163,17 +172,20 @@ Candidate examine(const Instance& instance, VkPhysicalDevice handle, const Windo
     candidate.lacks = "Vulkan 1.3";
     return candidate;
   }
+  Extensions extensions;
+  candidate.lacks = find_extensions(f, handle, extensions);
+  device.push_descriptors = extensions.push_descriptors;
   read_properties(f, device);
-  candidate.lacks = missing_features(device.features);
+  if (const std::string features = missing_features(device.features); !features.empty()) add(candidate.lacks, features);
   // Uniform blocks of lights are larger than the 16 KiB that Vulkan guarantees; every desktop device has 64 KiB or
   // more.
   if (device.limits.maxUniformBufferRange < kLeastUniformRange) add(candidate.lacks, "uniform buffers of 64 KiB");
   if (device.limits.maxPushConstantsSize < kLeastPushConstants) add(candidate.lacks, "128 bytes of push constants");
   if (std::min(device.limits.maxColorAttachments, device.limits.maxFragmentOutputAttachments) < kLeastColorTargets)
     add(candidate.lacks, "5 colour targets");
-  device.can_present = window.present && has_extension(f, handle, VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+  device.can_present = window.present && extensions.swapchain;
   if (window.present && !device.can_present) add(candidate.lacks, VK_KHR_SWAPCHAIN_EXTENSION_NAME);
-  if (const std::string_view queue = find_queue_family(f, device, window); !queue.empty()) add(candidate.lacks, queue);
+  if (const std::string queue = find_queue_family(f, device, window); !queue.empty()) add(candidate.lacks, queue);
   return candidate;
 }
 
@@ -201,11 +213,11 @@ Error no_device(std::string_view wish, const std::vector<Candidate>& candidates)
 Result<PhysicalDevice> choose_physical_device(const Instance& instance, std::string_view wish,
                                               const WindowNeeds& window) {
   const InstanceFunctions& f = instance.functions();
-  std::uint32_t count = 0;
-  VkResult result = f.vkEnumeratePhysicalDevices(instance.handle(), &count, nullptr);
-  std::vector<VkPhysicalDevice> handles(count);
-  if (result == VK_SUCCESS) result = f.vkEnumeratePhysicalDevices(instance.handle(), &count, handles.data());
-  if (result != VK_SUCCESS && result != VK_INCOMPLETE) {
+  std::vector<VkPhysicalDevice> handles;
+  const VkResult result = list_all(handles, [&](std::uint32_t* count, VkPhysicalDevice* items) {
+    return f.vkEnumeratePhysicalDevices(instance.handle(), count, items);
+  });
+  if (result != VK_SUCCESS) {
     return Error{ErrorKind::no_device, "The Vulkan devices could not be listed: " + describe(result)};
   }
   std::vector<Candidate> candidates;

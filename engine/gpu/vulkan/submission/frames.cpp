@@ -106,6 +106,7 @@ Result<VkCommandBuffer> Frames::begin(bool side_frame) {
     slot.has_timestamps = false;
   }
   recording_ = true;
+  ++begun_;
   graveyard_.set_begun(number() + 1);
   return slot.recorded;
 }

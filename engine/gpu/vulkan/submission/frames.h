@@ -42,6 +42,8 @@ class Frames {
   [[nodiscard]] bool last_discarded() const { return last_discarded_; }
   [[nodiscard]] bool recording() const { return recording_; }
   [[nodiscard]] std::uint64_t number() const { return number_.load(); }
+  /// Frames begun so far. Those whose submission failed have the number of the next one.
+  [[nodiscard]] std::uint64_t begun() const { return begun_; }
   [[nodiscard]] std::uint64_t completed() const;
   [[nodiscard]] Status wait_idle();
   /// Before the objects of frames are destroyed. Tries again after an error, which does not tell that the GPU has
@@ -99,6 +101,7 @@ class Frames {
   std::array<Slot, Device::kFramesInFlight> slots_;
   VkSemaphore timeline_ = VK_NULL_HANDLE;
   std::atomic<std::uint64_t> number_ = 0;
+  std::uint64_t begun_ = 0;
   bool recording_ = false;
   VkCommandBuffer host_commands_ = VK_NULL_HANDLE;  ///< of the frame that is recorded, or of the next one
   bool host_must_submit_ = false;                   ///< the newest frame's commands were recorded for the host
