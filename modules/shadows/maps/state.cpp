@@ -29,6 +29,7 @@ void ShadowStates::begin(gpu::Device& device) {
   staging_frame_ = frame;
   const auto is_unused = [&](const auto& entry) { return entry.second.last_frame + kFramesKept < frame; };
   std::erase_if(views_, is_unused);
+  std::erase_if(turns_, is_unused);
   std::erase_if(extra_maps_, is_unused);
 }
 
@@ -64,6 +65,7 @@ bool ShadowStates::take_turn(std::uint64_t world, const ViewMapState& view, cons
   const std::uint64_t before = turns.frame == frame ? turns.last : turns.holder;
   turns.last = view.number;
   turns.frame = frame;
+  turns.last_frame = device_->frame_number();
   return before == view.number;
 }
 

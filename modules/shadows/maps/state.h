@@ -85,9 +85,10 @@ class ShadowStates {
 
   /// Images in which views take turns, and the views (ViewMapState::number) whose maps they hold.
   struct Turns {
-    std::uint64_t holder = 0;  ///< after the last committed frame
-    std::uint64_t last = 0;    ///< in the frame that is being declared
-    std::uint32_t frame = 0;   ///< FrameGraph::frame of `last`
+    std::uint64_t holder = 0;      ///< after the last committed frame
+    std::uint64_t last = 0;        ///< in the frame that is being declared
+    std::uint32_t frame = 0;       ///< FrameGraph::frame of `last`
+    std::uint64_t last_frame = 0;  ///< Device::frame_number of its last use
   };
   /// World, texels of the atlas' side, and whether maps have 16 bits.
   using TurnsKey = std::tuple<std::uint64_t, std::uint32_t, bool>;

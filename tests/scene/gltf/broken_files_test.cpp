@@ -360,6 +360,16 @@ std::vector<Broken> broken_parts() {
        {"sampler 0: its wrap mode must be"}},
       {"image_absent", file_with_image(R"({"uri": "gone.png"})"), {"image 0 \"gone.png\": the file", "is absent"}},
       {"image_outside", file_with_image(R"({"uri": "%2e%2e/x.png"})"), {"image 0", "leaves the scene's folder"}},
+      {"image_past_buffer",
+       file(R"("buffers": [{"byteLength": 3, "uri": "data:application/octet-stream;base64,AAAA"}],)"
+            R"("bufferViews": [{"buffer": 0, "byteOffset": 18446744073709551615, "byteLength": 3}],)"
+            R"("images": [{"mimeType": "image/png", "bufferView": 0}])"),
+       {"buffer view 0: it ends past its buffer of 3 bytes"}},
+      {"image_at_the_end_of_a_buffer",
+       file(R"("buffers": [{"byteLength": 3, "uri": "data:application/octet-stream;base64,AAAA"}],)"
+            R"("bufferViews": [{"buffer": 0, "byteOffset": 3, "byteLength": 1}],)"
+            R"("images": [{"mimeType": "image/png", "bufferView": 0}])"),
+       {"buffer view 0: it ends past its buffer of 3 bytes"}},
       {"image_without_source", file_with_image(R"({"name": "wall"})"), {"image"}},
       {"image_of_other_kind",
        file_with_image(image_uri("image/gif", gif)),

@@ -275,9 +275,16 @@ void Scanner::take(const SceneValue& value) {
   if (top.type == "compressed buffer" && top.member == "fallback" && value.boolean && !scan_.buffers.empty())
     scan_.buffers.back().fallback = true;
   const bool buffer = top.type == "buffer";
+  const std::uint64_t whole = value.integral ? exact_ : 0;
+  if (frames_.size() == 3 && top.type == "buffer view") {
+    if (top.member == "buffer") scan_.views.back().buffer = whole;
+    if (top.member == "byteOffset") scan_.views.back().offset = whole;
+    if (top.member == "byteLength") scan_.views.back().length = whole;
+  }
   if (frames_.size() != 3 || (!buffer && top.type != "image")) return;
   ByteSource& source = (buffer ? scan_.buffers : scan_.images).back();
-  if (top.member == "byteLength") source.byte_length = value.integral ? exact_ : 0;
+  if (top.member == "byteLength") source.byte_length = whole;
+  if (top.member == "bufferView") source.view = whole;
   if (top.member != "uri") return;
   source.data_uri = value.text.starts_with("data:");
   source.uri = source.data_uri ? value.text.substr(0, 64) : value.text;
@@ -353,6 +360,7 @@ bool Scanner::open(bool is_array) {
   if (!is_array && frames_.size() == 2) {
     if (frame.type == "buffer") scan_.buffers.emplace_back();
     if (frame.type == "image") scan_.images.emplace_back();
+    if (frame.type == "buffer view") scan_.views.emplace_back();
   }
   frames_.push_back(std::move(frame));
   return true;

@@ -22,8 +22,16 @@ struct Attachments {
 struct ByteSource {
   std::string uri;  ///< empty: none; a data URI is cut to its first 64 characters
   std::uint64_t byte_length = 0;
+  std::uint64_t view = ~std::uint64_t{0};  ///< of an image: its buffer view; all ones: none
   bool data_uri = false;
   bool fallback = false;  ///< buffer of decompressed views (EXT_meshopt_compression), whose content is not needed
+};
+
+/// Bytes of a buffer.
+struct ViewSource {
+  std::uint64_t buffer = 0;
+  std::uint64_t offset = 0;
+  std::uint64_t length = 0;
 };
 
 /// A "gloam." key in the extras of an element that takes no keys.
@@ -43,6 +51,7 @@ struct JsonScan {
   SceneValue root_extensions;
   std::vector<ByteSource> buffers;  ///< one per buffer of the file
   std::vector<ByteSource> images;
+  std::vector<ViewSource> views;   ///< one per buffer view of the file
   bool compressed_meshes = false;  ///< a primitive has KHR_draco_mesh_compression
   std::vector<StrayKey> stray_keys;
   /// Place and fault of the first member that is missing, of a wrong type, out of range or given twice. It is not an

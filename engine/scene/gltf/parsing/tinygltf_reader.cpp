@@ -85,6 +85,22 @@ Status check_byte_sources(const JsonScan& scan, const Container& file) {
   return {};
 }
 
+/// tinygltf takes the address of each image's bytes before anything else is checked.
+Status check_image_bytes(const JsonScan& scan) {
+  for (const ByteSource& image : scan.images) {
+    if (image.view >= scan.views.size()) continue;  // none, or refused as a reference
+    const ViewSource& view = scan.views[image.view];
+    if (view.buffer >= scan.buffers.size()) continue;
+    const ByteSource& buffer = scan.buffers[view.buffer];
+    const std::string where = place("buffer view", image.view);
+    if (view.length == 0) return fault_at(where, "byteLength must be ≥ 1");
+    if (buffer.fallback) return fault_at(where, "an image cannot lie in a fallback buffer");
+    if (view.offset > buffer.byte_length || view.length > buffer.byte_length - view.offset)
+      return fault_at(where, "it ends past its buffer of " + std::to_string(buffer.byte_length) + " bytes");
+  }
+  return {};
+}
+
 /// The numbers of spot lights without a `spot` object. They have the default cone, but tinygltf refuses them.
 std::vector<std::size_t> spots_without_cone(const JsonScan& scan) {
   std::vector<std::size_t> spots;
@@ -419,6 +435,7 @@ void translate_all(const std::vector<From>& from, std::vector<To>& to) {
 
 Result<Document> read_document(const Container& file, const JsonScan& scan, const std::string& directory) {
   GLOAM_TRY(check_byte_sources(scan, file));
+  GLOAM_TRY(check_image_bytes(scan));
   const bool fallbacks = std::ranges::any_of(scan.buffers, &ByteSource::fallback);
   Hidden hidden{.spots = spots_without_cone(scan), .webps = embedded_webps(scan), .indices = {}};
   const bool readable = !fallbacks && !scan.compressed_meshes && hidden.spots.empty() && hidden.webps.empty();

@@ -33,5 +33,32 @@ TEST(ShadowStates, a_view_has_another_state_while_it_shares_an_atlas) {
   states.release();
 }
 
+TEST(ShadowStates, whose_turn_it_was_is_forgotten_with_its_world) {
+  const auto device = gpu::make_recording_device();
+  ShadowStates states;
+  const ViewFaces faces{.owner = ViewId{3}};
+  const ShadowKnobs knobs;
+  const auto next_frame = [&] {
+    ASSERT_TRUE(device->begin_frame().ok());
+    states.begin(*device);
+    ASSERT_TRUE(device->submit_frame().ok());
+  };
+  const auto take = [&](std::uint32_t frame) {
+    return states.take_turn(1, states.view(1, faces, ViewId{3}), knobs, frame);
+  };
+  next_frame();
+  EXPECT_FALSE(take(1)) << "nobody has drawn there";
+  states.commit_turn(1, states.view(1, faces, ViewId{3}), knobs);
+  next_frame();
+  EXPECT_TRUE(take(2));
+  states.commit_turn(1, states.view(1, faces, ViewId{3}), knobs);
+  for (int frame = 0; frame < 200; ++frame) {
+    next_frame();
+    static_cast<void>(states.view(1, faces, ViewId{3}));
+  }
+  EXPECT_FALSE(take(3));
+  states.release();
+}
+
 }  // namespace
 }  // namespace gloam
