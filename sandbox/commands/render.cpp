@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The gloam authors
 // SPDX-License-Identifier: MIT
 #include <chrono>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <thread>
@@ -63,7 +64,16 @@ ViewRequest request_of(const ViewSettings& view, const Options& options) {
 /// Budgets judge no frame while pipelines of other settings are made in the background. However long that takes, it
 /// must not use up the frames that were asked for.
 void wait_for_pipelines(Renderer& renderer) {
-  while (renderer.report().pipelines_pending > 0) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  using Clock = std::chrono::steady_clock;
+  // Where the system gives no thread for them, each frame makes one.
+  constexpr std::chrono::seconds kLongest{10};
+  std::size_t left = renderer.report().pipelines_pending;
+  for (auto since = Clock::now(); left > 0 && Clock::now() - since < kLongest;) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    const std::size_t now = renderer.report().pipelines_pending;
+    if (now < left) since = Clock::now();
+    left = now;
+  }
 }
 
 /// Draws a frame within the budget, if there is one. samples: the frames before it. Warns if no setting fits.

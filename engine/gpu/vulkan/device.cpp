@@ -82,12 +82,9 @@ Result<std::unique_ptr<Device>> VulkanDevice::assemble(std::unique_ptr<Instance>
 }
 
 VulkanDevice::~VulkanDevice() {
-  if (context_->owns_device()) {
-    context_->vk.vkDeviceWaitIdle(context_->device);
-  } else if (frames_) {
-    // Only gloam's own work must have finished; the host may be using this queue or others at the same time.
-    frames_->wait_at_end();
-  }
+  // On a host's device only gloam's own work must have finished: the host may be using this queue or others meanwhile.
+  if (frames_) frames_->wait_at_end();
+  if (context_->owns_device()) context_->vk.vkDeviceWaitIdle(context_->device);
   graveyard_.collect_all();
 }
 

@@ -87,7 +87,7 @@ Status VulkanSwapchain::resize(std::uint32_t width, std::uint32_t height) {
     const VkResult idle = context.vk.vkQueueWaitIdle(context.queue);
     if (idle != VK_SUCCESS) return failure("The window's pictures could not be waited for", idle);
   }
-  if (acquired_unsubmitted()) GLOAM_TRY(replace_ready());
+  if (acquired_ != kNone && fate_ == FrameFate::failed) GLOAM_TRY(replace_ready());
   forget_images();
   stale_ = true;
   if (width == 0 || height == 0) return {};
@@ -167,14 +167,11 @@ void VulkanSwapchain::forget_images() {
   acquired_ = kNone;
 }
 
-bool VulkanSwapchain::acquired_unsubmitted() { return acquired_ != kNone && device_.frames().number() == frame_; }
-
 /// The frame waits for this semaphore before it draws to the acquired picture.
 ImageHandle VulkanSwapchain::use_acquired(VkSemaphore ready) {
   Frames& frames = device_.frames();
   ready_ = ready;
-  frame_ = frames.number();
-  begun_ = frames.begun();
+  frames.tell_fate(fate_);
   frames.wait_for(ready);
   frames.signal(rendered_[acquired_]);
   return images_[acquired_];
@@ -183,13 +180,11 @@ ImageHandle VulkanSwapchain::use_acquired(VkSemaphore ready) {
 Result<ImageHandle> VulkanSwapchain::acquire() {
   Frames& frames = device_.frames();
   GLOAM_ASSERT(frames.recording(), "a picture is acquired while a frame is recorded");
-  GLOAM_ASSERT(acquired_ == kNone || begun_ != frames.begun(), "a picture is acquired once in a frame");
-  // A frame whose submission failed has the number of the next one, and has waited for nothing.
-  if (acquired_unsubmitted()) return use_acquired(ready_);
   if (acquired_ != kNone) {
-    GLOAM_ASSERT(frames.last_discarded(), "a picture is presented before the next one is acquired");
-    // The frame that acquired this picture was abandoned. Its empty submission has signalled the semaphore.
-    return use_acquired(rendered_[acquired_]);
+    GLOAM_ASSERT(fate_ != FrameFate::recorded, "a picture is acquired once in a frame");
+    GLOAM_ASSERT(fate_ != FrameFate::submitted, "a picture is presented before the next one is acquired");
+    // A frame that was abandoned has signalled that the picture is drawn. One that failed has waited for nothing.
+    return use_acquired(fate_ == FrameFate::failed ? ready_ : rendered_[acquired_]);
   }
   if (stale_) return ImageHandle();
   Context& context = device_.context();
@@ -207,7 +202,7 @@ Result<ImageHandle> VulkanSwapchain::acquire() {
 }
 
 Status VulkanSwapchain::present() {
-  if (acquired_ == kNone || acquired_unsubmitted()) return {};
+  if (acquired_ == kNone || fate_ == FrameFate::failed) return {};
   Context& context = device_.context();
   const VkPresentInfoKHR info = {.sType = VK_STRUCTURE_TYPE_PRESENT_INFO_KHR,
                                  .waitSemaphoreCount = 1,
@@ -233,8 +228,12 @@ Status VulkanSwapchain::present() {
 
 VulkanSwapchain::~VulkanSwapchain() {
   Context& context = device_.context();
+  device_.frames().drop_fate(fate_);
   device_.frames().wait_at_end();
-  if (context.vk.vkDeviceWaitIdle(context.device) != VK_SUCCESS) context.vk.vkQueueWaitIdle(context.queue);
+  if (context.vk.vkDeviceWaitIdle(context.device) != VK_SUCCESS) {
+    const std::lock_guard lock(context.queue_mutex());
+    context.vk.vkQueueWaitIdle(context.queue);
+  }
   forget_images();
   for (VkSemaphore semaphore : available_) context.vk.vkDestroySemaphore(context.device, semaphore, context.allocation);
   context.vk.vkDestroySwapchainKHR(context.device, swapchain_, context.allocation);

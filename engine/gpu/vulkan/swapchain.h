@@ -33,8 +33,6 @@ class VulkanSwapchain final : public Swapchain {
   Status adopt_images(VkExtent2D extent);
   Status replace_ready();
   void forget_images();
-  /// Whether the frame that acquired the picture was not submitted (yet).
-  [[nodiscard]] bool acquired_unsubmitted();
   ImageHandle use_acquired(VkSemaphore ready);
   Result<VkSemaphore> make_semaphore(std::string_view name);
 
@@ -45,9 +43,8 @@ class VulkanSwapchain final : public Swapchain {
   VkSwapchainKHR swapchain_ = VK_NULL_HANDLE;
   bool stale_ = true;  ///< the window has another size, or there is no swapchain
   std::uint32_t acquired_ = kNone;
-  VkSemaphore ready_ = VK_NULL_HANDLE;  ///< what the frame that acquired the picture waits for
-  std::uint64_t frame_ = 0;             ///< that frame's number
-  std::uint64_t begun_ = 0;             ///< Frames::begun of that frame
+  VkSemaphore ready_ = VK_NULL_HANDLE;    ///< what the frame that acquired the picture waits for
+  FrameFate fate_ = FrameFate::recorded;  ///< what has become of that frame
   std::vector<ImageHandle> images_;
   std::vector<VkSemaphore> rendered_;  ///< one per image: presenting waits for it
   std::array<VkSemaphore, Device::kFramesInFlight> available_ = {};

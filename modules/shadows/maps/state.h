@@ -37,8 +37,8 @@ class ShadowStates {
   ShadowStates(const ShadowStates&) = delete;
   ShadowStates& operator=(const ShadowStates&) = delete;
 
-  /// Call once per view and frame, before the other functions. Forgets views, and destroys scratch images, that no
-  /// frame has used for 120 frames.
+  /// Call once per view and frame, before the other functions. Forgets views and turns, and destroys scratch images,
+  /// that no frame has used for 120 frames.
   void begin(gpu::Device& device);
   /// The state of the atlas that holds these faces, empty at the first call. A view that shares an atlas at times has
   /// another state then: it is another image. world: its world_id. user: the view.

@@ -370,6 +370,11 @@ std::vector<Broken> broken_parts() {
             R"("bufferViews": [{"buffer": 0, "byteOffset": 3, "byteLength": 1}],)"
             R"("images": [{"mimeType": "image/png", "bufferView": 0}])"),
        {"buffer view 0: it ends past its buffer of 3 bytes"}},
+      {"image_in_view_minus_0",
+       file(R"("buffers": [{"byteLength": 3, "uri": "data:application/octet-stream;base64,AAAA"}],)"
+            R"("bufferViews": [{"byteLength": 3, "byteOffset": 18446744073709551615, "buffer": -0}],)"
+            R"("images": [{"mimeType": "image/png", "bufferView": -0}])"),
+       {"buffer view 0: it ends past its buffer of 3 bytes"}},
       {"image_without_source", file_with_image(R"({"name": "wall"})"), {"image"}},
       {"image_of_other_kind",
        file_with_image(image_uri("image/gif", gif)),

@@ -19,6 +19,7 @@ template <class Item, class List>
     result = list(&count, static_cast<Item*>(nullptr));
     if (result != VK_SUCCESS && result != VK_INCOMPLETE) break;
     items.resize(count);
+    if (count == 0) return VK_SUCCESS;  // without a place for items, the second call would count again
     result = list(&count, items.data());
     if (result == VK_SUCCESS) items.resize(count);
   }

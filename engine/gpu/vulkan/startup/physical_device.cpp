@@ -19,7 +19,10 @@ constexpr VkQueueFlags kQueueNeeds = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BI
 
 struct Candidate {
   PhysicalDevice device;
-  std::string lacks;  ///< missing requirements; empty: the device can be used
+  std::string lacks;  ///< missing requirements
+  std::string fault;  ///< a call about it that failed. If both are empty, the device can be used
+  [[nodiscard]] bool usable() const { return lacks.empty() && fault.empty(); }
+  [[nodiscard]] std::string reason() const { return fault.empty() ? "it lacks " + lacks : fault; }
 };
 
 DeviceType type_of(VkPhysicalDeviceType type) {
@@ -76,7 +79,7 @@ std::string find_extensions(const InstanceFunctions& f, VkPhysicalDevice device,
     found.swapchain |= std::strcmp(extension.extensionName, VK_KHR_SWAPCHAIN_EXTENSION_NAME) == 0;
     found.push_descriptors |= std::strcmp(extension.extensionName, VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME) == 0;
   }
-  return result == VK_SUCCESS ? std::string() : "a list of its extensions: " + describe(result);
+  return result == VK_SUCCESS ? std::string() : "its extensions could not be listed: " + describe(result);
 }
 
 constexpr std::uint32_t kLlvmpipeLanes[] = {4, 8};  ///< vectors that llvmpipe tests depth with
@@ -134,25 +137,29 @@ bool take_queue_family(PhysicalDevice& device, std::span<const VkQueueFamilyProp
   return true;
 }
 
-/// Takes the first queue family for graphics and compute that presents to the window, if there is one. Returns what
-/// the device lacks, or nothing.
-std::string find_queue_family(const InstanceFunctions& f, PhysicalDevice& device, const WindowNeeds& window) {
+/// Takes the first queue family for graphics and compute that presents to the window, if there is one.
+void find_queue_family(const InstanceFunctions& f, const WindowNeeds& window, Candidate& candidate) {
+  PhysicalDevice& device = candidate.device;
   const std::vector<VkQueueFamilyProperties> families = queue_families(f, device.handle);
-  std::string lacks = "a queue for graphics and compute";
+  bool draws = false;
+  std::string fault;
   for (std::uint32_t i = 0; i < families.size(); ++i) {
     if (!can_draw(families, i)) continue;
+    draws = true;
     VkBool32 presents = VK_TRUE;
     VkResult result = VK_SUCCESS;
     if (window.surface != VK_NULL_HANDLE)
       result = f.vkGetPhysicalDeviceSurfaceSupportKHR(device.handle, i, window.surface, &presents);
-    if (result == VK_SUCCESS && presents == VK_TRUE) {
+    if (result != VK_SUCCESS) {
+      fault = "it could not be asked whether it presents to this window: " + describe(result);
+    } else if (presents == VK_TRUE) {
       static_cast<void>(take_queue_family(device, families, i));
-      return {};
+      return;
     }
-    lacks = "a queue that can present to this window";
-    if (result != VK_SUCCESS) lacks += ": " + describe(result);
   }
-  return lacks;
+  if (candidate.fault.empty()) candidate.fault = fault;
+  if (fault.empty())
+    add(candidate.lacks, draws ? "a queue that can present to this window" : "a queue for graphics and compute");
 }
 
 constexpr std::uint32_t kLeastUniformRange = 65536;
@@ -173,7 +180,7 @@ Candidate examine(const Instance& instance, VkPhysicalDevice handle, const Windo
     return candidate;
   }
   Extensions extensions;
-  candidate.lacks = find_extensions(f, handle, extensions);
+  candidate.fault = find_extensions(f, handle, extensions);
   device.push_descriptors = extensions.push_descriptors;
   read_properties(f, device);
   if (const std::string features = missing_features(device.features); !features.empty()) add(candidate.lacks, features);
@@ -184,8 +191,9 @@ Candidate examine(const Instance& instance, VkPhysicalDevice handle, const Windo
   if (std::min(device.limits.maxColorAttachments, device.limits.maxFragmentOutputAttachments) < kLeastColorTargets)
     add(candidate.lacks, "5 colour targets");
   device.can_present = window.present && extensions.swapchain;
-  if (window.present && !device.can_present) add(candidate.lacks, VK_KHR_SWAPCHAIN_EXTENSION_NAME);
-  if (const std::string queue = find_queue_family(f, device, window); !queue.empty()) add(candidate.lacks, queue);
+  if (candidate.fault.empty() && window.present && !device.can_present)
+    add(candidate.lacks, VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+  find_queue_family(f, window, candidate);
   return candidate;
 }
 
@@ -201,7 +209,7 @@ Error no_device(std::string_view wish, const std::vector<Candidate>& candidates)
   std::string there;
   for (const Candidate& c : candidates) {
     std::string item = c.device.info.name + " (" + std::string(name_of(c.device.info.type));
-    if (!c.lacks.empty()) item += "; lacks " + c.lacks;
+    if (!c.usable()) item += "; " + c.reason();
     add(there, item + ")");
   }
   return {ErrorKind::no_device, "No usable Vulkan device fits \"" + std::string(wish) +
@@ -226,7 +234,8 @@ Result<PhysicalDevice> choose_physical_device(const Instance& instance, std::str
   const std::string wanted = lower(wish);
   const Candidate* best = nullptr;
   for (const Candidate& c : candidates) {
-    if (!c.lacks.empty() || !fits(c, wanted)) continue;
+    if (!c.fault.empty()) instance.log().warning("The device " + c.device.info.name + " is passed over: " + c.fault);
+    if (!c.usable() || !fits(c, wanted)) continue;
     if (best == nullptr || rank_of(c.device.info.type) < rank_of(best->device.info.type)) best = &c;
   }
   if (best == nullptr) return no_device(wish, candidates);
@@ -237,7 +246,7 @@ Result<PhysicalDevice> examine_host_device(const Instance& instance, const HostD
   Candidate candidate = examine(instance, host.physical_device, {});
   PhysicalDevice& device = candidate.device;
   const std::string subject = "The host's device " + device.info.name + " cannot be used: ";
-  if (!candidate.lacks.empty()) return Error{ErrorKind::no_device, subject + "it lacks " + candidate.lacks};
+  if (!candidate.usable()) return Error{ErrorKind::no_device, subject + candidate.reason()};
   if (!take_queue_family(device, queue_families(instance.functions(), device.handle), host.queue_family)) {
     return Error{ErrorKind::no_device, subject + "its queue family " + std::to_string(host.queue_family) +
                                            " is not one for graphics and compute"};

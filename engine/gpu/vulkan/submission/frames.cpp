@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "engine/gpu/vulkan/errors.h"
 
@@ -106,7 +107,6 @@ Result<VkCommandBuffer> Frames::begin(bool side_frame) {
     slot.has_timestamps = false;
   }
   recording_ = true;
-  ++begun_;
   graveyard_.set_begun(number() + 1);
   return slot.recorded;
 }
@@ -150,7 +150,6 @@ Status Frames::submit(bool discard) {
   const bool for_host = slot.recorded != slot.commands;
   if (for_host) host_commands_ = VK_NULL_HANDLE;
   VkResult result = discard || for_host ? VK_SUCCESS : context_.vk.vkEndCommandBuffer(slot.commands);
-  last_discarded_ = discard;
   host_must_submit_ = for_host && !discard;
   if (host_must_submit_) {
     GLOAM_ASSERT(waits_.empty() && signals_.empty(),
@@ -160,6 +159,8 @@ Status Frames::submit(bool discard) {
   }
   waits_.clear();
   signals_.clear();
+  if (FrameFate* fate = std::exchange(fate_, nullptr))
+    *fate = result != VK_SUCCESS ? FrameFate::failed : discard ? FrameFate::discarded : FrameFate::submitted;
   if (result != VK_SUCCESS) {
     // The timeline does not reach this frame: the next one has its number.
     if (result == VK_ERROR_DEVICE_LOST) lost_ = true;
@@ -169,6 +170,16 @@ Status Frames::submit(bool discard) {
   slot.has_timestamps = !discard;
   ++number_;
   return {};
+}
+
+void Frames::tell_fate(FrameFate& fate) {
+  GLOAM_ASSERT(recording_ && fate_ == nullptr, "one caller asks for the fate of the frame that is recorded");
+  fate = FrameFate::recorded;
+  fate_ = &fate;
+}
+
+void Frames::drop_fate(const FrameFate& fate) {
+  if (fate_ == &fate) fate_ = nullptr;
 }
 
 void Frames::wait_for(VkSemaphore semaphore, std::uint64_t value) {

@@ -18,6 +18,14 @@
 
 namespace gloam::gpu::vulkan {
 
+/// What has become of a frame.
+enum class FrameFate : std::uint8_t {
+  recorded,   ///< nothing yet
+  submitted,  ///< with its commands
+  discarded,  ///< without them, but it waits and signals
+  failed      ///< not submitted
+};
+
 /// The frames in flight: command buffers, timestamps and one timeline semaphore, whose value is the number of finished
 /// frames. Frames are begun and submitted on one thread; number, completed, timestamps and wait_idle may be called on
 /// any thread.
@@ -38,12 +46,11 @@ class Frames {
   /// `discard`: drops the recorded commands, which may be incomplete; the frame is still submitted and completes in
   /// order.
   [[nodiscard]] Status submit(bool discard = false);
-  /// Whether the newest submitted frame was discarded.
-  [[nodiscard]] bool last_discarded() const { return last_discarded_; }
+  /// Sets `fate` now and when the frame that is recorded ends. `fate` must live until then, or until drop_fate().
+  void tell_fate(FrameFate& fate);
+  void drop_fate(const FrameFate& fate);
   [[nodiscard]] bool recording() const { return recording_; }
   [[nodiscard]] std::uint64_t number() const { return number_.load(); }
-  /// Frames begun so far. Those whose submission failed have the number of the next one.
-  [[nodiscard]] std::uint64_t begun() const { return begun_; }
   [[nodiscard]] std::uint64_t completed() const;
   [[nodiscard]] Status wait_idle();
   /// Before the objects of frames are destroyed. Tries again after an error, which does not tell that the GPU has
@@ -101,11 +108,10 @@ class Frames {
   std::array<Slot, Device::kFramesInFlight> slots_;
   VkSemaphore timeline_ = VK_NULL_HANDLE;
   std::atomic<std::uint64_t> number_ = 0;
-  std::uint64_t begun_ = 0;
   bool recording_ = false;
   VkCommandBuffer host_commands_ = VK_NULL_HANDLE;  ///< of the frame that is recorded, or of the next one
   bool host_must_submit_ = false;                   ///< the newest frame's commands were recorded for the host
-  bool last_discarded_ = false;
+  FrameFate* fate_ = nullptr;                       ///< to set when the frame that is recorded ends
   std::atomic<bool> lost_ = false;
   std::vector<VkSemaphoreSubmitInfo> waits_;
   std::vector<VkSemaphoreSubmitInfo> signals_;

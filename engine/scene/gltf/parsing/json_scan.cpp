@@ -122,7 +122,10 @@ class Scanner {
 
   bool null() { return scalar({}); }
   bool boolean(bool value) { return scalar({.kind = Kind::boolean, .boolean = value}); }
-  bool number_integer(number_integer_t value) { return number(static_cast<double>(value), true); }
+  bool number_integer(number_integer_t value) {
+    exact_ = value < 0 ? 0 : static_cast<std::uint64_t>(value);  // -0
+    return number(static_cast<double>(value), true);
+  }
   bool number_unsigned(number_unsigned_t value) {
     exact_ = value;
     return number(static_cast<double>(value), true);

@@ -33,7 +33,7 @@ TEST(ShadowStates, a_view_has_another_state_while_it_shares_an_atlas) {
   states.release();
 }
 
-TEST(ShadowStates, whose_turn_it_was_is_forgotten_with_its_world) {
+TEST(ShadowStates, whose_turn_it_was_is_forgotten_when_nobody_takes_one) {
   const auto device = gpu::make_recording_device();
   ShadowStates states;
   const ViewFaces faces{.owner = ViewId{3}};
