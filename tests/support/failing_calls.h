@@ -10,8 +10,8 @@
 
 namespace gloam::test {
 
-/// Makes one call of Vulkan fail, seen by a vkGetInstanceProcAddr between gloam and the loader (or another
-/// hook of it). Only functions that return a VkResult count as calls. Thread-safe. One object at a time.
+/// Makes one call of Vulkan fail, seen by a vkGetInstanceProcAddr between gloam and the loader (or another hook of it).
+/// Only functions that return a VkResult count as calls. Thread-safe. One object at a time.
 ///
 /// The function that fails is not called, and leaves handles that make no sense, because Vulkan leaves them undefined;
 /// pipelines, descriptor sets and command buffers are null, as Vulkan demands. When a device is lost, the GPU is waited

@@ -28,13 +28,8 @@ struct WindowLife {
   int validation_messages = 0;  ///< of the whole life of the device
 };
 
-class FailingWindow : public ::testing::Test {
+class FailingWindow : public WindowFixture {
  protected:
-  void SetUp() override {
-    if (window_.get() == nullptr) GTEST_SKIP() << "there is no display, or no usable Vulkan device on this machine";
-    const auto device = create_vulkan_device(window_.options());
-    if (!device) GTEST_SKIP() << device.error().message;
-  }
   static bool note(WindowLife& life, const Status& status) {
     if (!status.ok()) life.errors.push_back(status.error().message);
     return status.ok();
@@ -90,7 +85,6 @@ class FailingWindow : public ::testing::Test {
     device->reset();
     return life;
   }
-  TestWindow window_;
 };
 
 // Hard case: passes.failing_call

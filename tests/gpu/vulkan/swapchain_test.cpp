@@ -13,13 +13,11 @@
 namespace gloam::gpu {
 namespace {
 
-class WindowTest : public ::testing::Test {
+class WindowTest : public WindowFixture {
  protected:
   void SetUp() override {
-    if (window_.get() == nullptr) GTEST_SKIP() << "there is no display, or no usable Vulkan device on this machine";
-    auto made = create_vulkan_device(window_.options());
-    if (!made) GTEST_SKIP() << made.error().message;
-    device_ = std::move(*made);
+    WindowFixture::SetUp();
+    if (!device_) return;
     auto swapchain = create_swapchain(*device_, window_.options().create_surface);
     ASSERT_TRUE(swapchain.ok()) << swapchain.error().message;
     swapchain_ = std::move(*swapchain);
@@ -50,8 +48,6 @@ class WindowTest : public ::testing::Test {
     return *image;
   }
 
-  TestWindow window_;
-  std::unique_ptr<Device> device_;
   std::unique_ptr<Swapchain> swapchain_;
 };
 

@@ -90,9 +90,9 @@ Status check_image_bytes(const JsonScan& scan) {
   for (const ByteSource& image : scan.images) {
     if (image.view >= scan.views.size()) continue;  // none, or refused as a reference
     const ViewSource& view = scan.views[image.view];
-    if (view.buffer >= scan.buffers.size()) return fault_at(place("buffer view", image.view), "it has no buffer");
-    const ByteSource& buffer = scan.buffers[view.buffer];
     const std::string where = place("buffer view", image.view);
+    if (view.buffer >= scan.buffers.size()) return fault_at(where, "it has no buffer");
+    const ByteSource& buffer = scan.buffers[view.buffer];
     if (view.length == 0) return fault_at(where, "byteLength must be ≥ 1");
     if (buffer.fallback) return fault_at(where, "an image cannot lie in a fallback buffer");
     if (view.offset > buffer.byte_length || view.length > buffer.byte_length - view.offset)
